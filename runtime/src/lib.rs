@@ -80,9 +80,9 @@ pub use eigentol_contract::scalar;
 pub use eigentol_contract::{
     Any, Array, BeamInfo, BodyInfo, Coordinate, CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo,
     DesignVariable, Dual, ElementInfo, Excitation, ExcitationInfo, Forcing, ForcingOf, Gradient, GradientOf, Input,
-    InputInfo, LineKind, JointInfo, KernelInfo, Law, Linear, LinearPartials, LinkInfo, List, Mechanism, Output, OutputInfo,
-    OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts, RingInfo, SpanInfo,
-    Role, Shared, SolidInfo, SolidKind, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
+    InputInfo, JointInfo, KernelInfo, Law, LineKind, Linear, LinearPartials, LinkInfo, List, Mechanism, Output,
+    OutputInfo, OutputMotionOf, PartialsOf, PictureInfo, PointInfo, PoseMargin, Real, ResidualPartialsOf, RestParts,
+    RingInfo, Role, Shared, SolidInfo, SolidKind, SpanInfo, Square, Text, ToleranceInfo, Unit, Violation, WheelInfo,
 };
 pub use eigentol_macros::mechanism;
 

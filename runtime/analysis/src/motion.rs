@@ -4,6 +4,7 @@ use crate::algebra::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix
 use crate::arguments::check_count;
 use crate::constraints::{Structure, Tangent, fix_gauge};
 use crate::kernels::{DirectionalKernels, Kernels, Linear, MotionKernels};
+use crate::shafts::refuse;
 use crate::{Description, Error};
 
 /// Accelerations `qddot` of the free coordinates, from `M* qddot = Q*` (eqs. 7-9).
@@ -36,6 +37,7 @@ pub fn accelerations(
     check_count("coordinates", q, description.coordinates.len())?;
     check_count("inputs", u, description.inputs.len())?;
     check_count("design variables", b, description.design.len())?;
+    refuse(description, "accelerations")?;
     let structure = Structure::of(description);
     if !structure.open() {
         return constrained_accelerations(mechanism, structure, velocity, q, u, b);

@@ -13,6 +13,7 @@ use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{CLUSTER_GAP, Family, Normalisation, clusters, lead, pencil_slope_times, pencil_times, transposed};
 use crate::scalar::Real as _;
 use crate::sensitivity::{Rate, check_modes, directions, outside_domain};
+use crate::shafts::refuse;
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// Total derivatives of the shapes of one mode, with the normalisation of the mode ([`Mode::shape`]).
@@ -43,6 +44,7 @@ pub fn shape_sensitivity(
     modes: &Modes,
     mode: usize,
 ) -> Result<ShapeSensitivity, Error> {
+    refuse(&at.description, "derivatives of shapes")?;
     let shapes = Shapes::new(at, modes, mode)?;
     let (mut right, mut left) = (Vec::new(), Vec::new());
     for direction in directions(mechanism, at)? {

@@ -1,8 +1,8 @@
 //! Converts the compiler's description of a mechanism to the runtime's types.
 
 use eigentol::{
-    CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law, LineKind,
-    OutputInfo, RingInfo, Role, SpanInfo, Text, ToleranceInfo, Unit,
+    CoordinateInfo, CorrelationInfo, DampingKind, Description, DesignInfo, ExcitationInfo, InputInfo, KernelInfo, Law,
+    LineKind, OutputInfo, RingInfo, Role, SpanInfo, Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::base::names::written;

@@ -27,7 +27,7 @@ pub struct Mode {
 /// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
-const CLOSE: f64 = 1e-6;
+const CLOSE: f64 = 1e-9;
 /// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
 const RIGID: f64 = 1e-4;
 /// Radians by which a determinant may turn in half a step along an edge.
@@ -115,8 +115,7 @@ impl Assembly {
             motion.add(-motion.product(weights) / known.product(weights), known);
             motion
         };
-        let (mut right, mut left) =
-            (rest(Side::Right, &mode.right, &slope_left), rest(Side::Left, &mode.left, &slope));
+        let (mut right, mut left) = (rest(Side::Right, &mode.right, &slope_left), rest(Side::Left, &mode.left, &slope));
         // What is left where the eigenvalue is single is smaller by the distance from it as a part of that to the next.
         if right.normalise() > ALONE || left.normalise() > ALONE {
             return Ok(None);

@@ -18,9 +18,9 @@ pub mod kernels;
 pub mod modes;
 #[doc(hidden)]
 pub mod rounding;
+pub mod sensitivity;
 #[doc(hidden)]
 pub mod shafts;
-pub mod sensitivity;
 #[doc(hidden)]
 pub mod state;
 #[doc(hidden)]

@@ -10,7 +10,7 @@ use eigentol_shafts::{Assembly, Line, Number, Section, Span, SpanGradient};
 
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, dot_complex};
 use crate::kernels::{Kernels, Second};
-use crate::modes::{Behaviour, Modes, behaviour, normalise_by_mass};
+use crate::modes::{Behaviour, behaviour, normalise_by_mass};
 use crate::scalar::Dual;
 use crate::{Complex, Description, Equilibrium, Error, Mode, Stability};
 
@@ -33,7 +33,7 @@ pub struct Shafts {
 }
 
 /// The numbers of the spans of a mechanism; see [`Mechanism::spans`](eigentol_contract::Mechanism::spans).
-pub(crate) fn numbers(mechanism: &dyn Kernels, description: &Description, u: &[f64], b: &[f64]) -> Vector {
+fn numbers(mechanism: &dyn Kernels, description: &Description, u: &[f64], b: &[f64]) -> Vector {
     let constant = |values: &[f64]| values.iter().map(|&value| second(value, 0.0)).collect::<Vec<Second>>();
     let mut numbers = vec![second(0.0, 0.0); description.spans.iter().map(SpanInfo::count).sum()];
     if !numbers.is_empty() {
@@ -89,6 +89,10 @@ impl Shafts {
         let wrong = |error: eigentol_shafts::Error| Error::Shaft { reason: error.to_string().into() };
         let n = at.coordinates.len();
         let mut numbers = &at.spans[..];
+        let expected = at.description.spans.iter().map(SpanInfo::count).sum();
+        if numbers.len() != expected {
+            return Err(Error::WrongLength { kind: "numbers of shafts", found: numbers.len(), expected });
+        }
         let spans: Vec<Span> = at.description.spans.iter().map(|info| span(info, &mut numbers)).collect();
         let zeros = || [(); 3].map(|()| Matrix::zeros(n, n));
         let alone = Assembly::new(spans.clone(), zeros(), DEGREE).map_err(wrong)?;
@@ -147,7 +151,8 @@ impl Shafts {
         let mut modes = Vec::new();
         for own in found {
             let (mut right, mut left) = (own.right.stations.clone(), own.left.stations.clone());
-            let weighs = normalise_by_mass(&mut right, &at.linear.mass) && normalise_by_mass(&mut left, &at.linear.mass);
+            let weighs =
+                normalise_by_mass(&mut right, &at.linear.mass) && normalise_by_mass(&mut left, &at.linear.mass);
             if !weighs {
                 return None;
             }
@@ -184,22 +189,22 @@ impl Shafts {
         let twice = |k: usize| found[..k].iter().any(|other| other.is_same(&found[k]));
         (!(0..found.len()).any(twice)).then_some(found)
     }
+}
 
-    /// The stability of a state with these modes.
-    pub(crate) fn stability(at: &Equilibrium, modes: &[Mode]) -> Stability {
-        let growing = modes.iter().filter(|mode| mode.behaviour.grows()).count();
-        let stiffness = &at.linear.stiffness;
-        if Lu::new(stiffness).is_some_and(|factors| factors.negative_determinant()) {
-            Stability::Divergent { negative: 1 }
-        } else if growing > 0 {
-            Stability::Flutter { growing }
-        } else if modes.iter().all(|mode| matches!(mode.behaviour, Behaviour::Damped(_)))
-            || Cholesky::new(&symmetric_part(stiffness)).is_ok()
-        {
-            Stability::Stable
-        } else {
-            Stability::Marginal
-        }
+/// The stability of a state with these modes.
+fn stability(at: &Equilibrium, modes: &[Mode]) -> Stability {
+    let growing = modes.iter().filter(|mode| mode.behaviour.grows()).count();
+    let stiffness = &at.linear.stiffness;
+    if Lu::new(stiffness).is_some_and(|factors| factors.negative_determinant()) {
+        Stability::Divergent { negative: 1 }
+    } else if growing > 0 {
+        Stability::Flutter { growing }
+    } else if modes.iter().all(|mode| matches!(mode.behaviour, Behaviour::Damped(_)))
+        || Cholesky::new(&symmetric_part(stiffness)).is_ok()
+    {
+        Stability::Stable
+    } else {
+        Stability::Marginal
     }
 }
 
@@ -242,12 +247,31 @@ impl ShaftSlopes {
     }
 }
 
-impl Modes {
-    /// Refuses modes of shafts where all modes are needed.
-    #[doc(hidden)]
-    pub fn all_of_them(of: &Description, what: &'static str) -> Result<(), Error> {
-        if of.spans.is_empty() { Ok(()) } else { Err(Error::NotWithShafts { what: what.into() }) }
+/// Refuses a question that takes all equations or all modes of a mechanism with shafts.
+#[doc(hidden)]
+pub fn refuse(of: &Description, what: &'static str) -> Result<(), Error> {
+    if of.spans.is_empty() { Ok(()) } else { Err(Error::NotWithShafts { what: what.into() }) }
+}
+
+/// Gives a solved state the numbers of its shafts, and judges it by their lowest modes; `None` if it has none. Without
+/// modes near which to look, all are sought; where none are `wanted`, nothing is judged.
+#[doc(hidden)]
+pub fn judge(
+    mechanism: &dyn Kernels,
+    state: &mut Equilibrium,
+    nearby: &[Mode],
+    wanted: bool,
+) -> Option<(Stability, Vec<Mode>)> {
+    state.spans = numbers(mechanism, &state.description, &state.inputs, &state.design);
+    if state.spans.is_empty() {
+        return None;
     }
+    if !wanted || state.constraints.singular {
+        return Some((Stability::Undecided, Vec::new()));
+    }
+    let modes = Shafts::of(state).ok().flatten().and_then(|shafts| shafts.modes(state, nearby)).unwrap_or_default();
+    let stability = if modes.is_empty() { Stability::Undecided } else { stability(state, &modes) };
+    Some((stability, modes))
 }
 
 /// A span with the first of these numbers.

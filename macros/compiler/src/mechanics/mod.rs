@@ -22,7 +22,8 @@ mod setup;
 pub(crate) use derive::compared_at_rest;
 pub use derive::derive;
 pub use functions::{
-    Damping, Excitation, FreeDirections, Functions, Limits, Pose, Properties, Requirement, RingPlaces, Role, SpanPlaces, Unknown,
+    Damping, Excitation, FreeDirections, Functions, Limits, Pose, Properties, Requirement, RingPlaces, Role,
+    SpanPlaces, Unknown,
 };
 #[cfg(test)]
 pub(crate) use inertia::compared;

@@ -12,6 +12,7 @@ use crate::error::NotFound;
 use crate::free::{FreeDirections, Held};
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
+use crate::shafts;
 use crate::{Description, Equilibrium, Error, Shared, Watch};
 
 /// A mechanism with one varying input.
@@ -245,7 +246,7 @@ impl<'a> Curve<'a> {
             }));
         }
         let constraints = constraint_state(&point, &at.q, &residual, &linear).map_err(ContinuationFailure::Refused)?;
-        let verdict = if constraints.singular {
+        let verdict = if constraints.singular || !self.description.spans.is_empty() {
             Verdict::undecided()
         } else {
             let checked_state = rounding::CheckedState {
@@ -267,6 +268,10 @@ impl<'a> Curve<'a> {
         state.residual = residual;
         state.relative_residual = relative;
         state.iterations = iterations;
+        if let Some((stability, modes)) = shafts::judge(self.mechanism, &mut state, &[], true) {
+            state.stability = stability;
+            return Ok(SolvedState { state, modes });
+        }
         let modes = verdict.modes;
         Ok(SolvedState { state, modes })
     }

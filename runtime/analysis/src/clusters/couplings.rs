@@ -7,6 +7,7 @@ use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, pencil_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{check_modes, directions, normaliser};
+use crate::shafts::refuse;
 use crate::tolerance::Tolerances;
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
@@ -125,6 +126,7 @@ pub fn modal_couplings(
         return Err(Error::NoSuchMode { mode, count });
     }
     check_modes(at, modes)?;
+    refuse(&at.description, "couplings of modes with equal eigenvalues")?;
     let members: Vec<&Mode> = positions.iter().map(|&r| &modes.modes[r]).collect();
     let undamped = Undamped::new(&members);
     let mut matrices = directions(mechanism, at)?.map(|along| {

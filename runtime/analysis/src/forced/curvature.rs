@@ -12,6 +12,7 @@ use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_res
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
 use crate::sensitivity::{ComplexGradient, Direction, Slopes, directions, form_gradients_along, subtract};
+use crate::shafts::refuse;
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A forced response with its total first and second derivatives.
@@ -89,6 +90,7 @@ impl ForcedCurvature {
 /// # Errors
 /// Those of [`sensitivities`](super::sensitivities).
 pub fn second_derivatives(mechanism: &dyn CurvatureKernels, at: &Equilibrium) -> Result<ForcedCurvature, Error> {
+    refuse(&at.description, "second derivatives of vibrations")?;
     let solved = Solved::new(mechanism, at)?;
     let slopes = first_derivatives(&solved)?;
     let adjoint = Adjoint::new(mechanism, at)?;

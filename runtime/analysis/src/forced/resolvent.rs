@@ -22,6 +22,7 @@ use super::response::add;
 use crate::algebra::{Lu, Matrix, Vector, product_complex};
 use crate::kernels::{CurvatureKernels, Linear};
 use crate::sensitivity::{Direction, equilibrium_shift, outside_domain};
+use crate::shafts::refuse;
 use crate::{Complex, Equilibrium, Error};
 
 /// Most vectors that border `D`.
@@ -75,6 +76,7 @@ impl<'a> Resolvent<'a> {
         excitation: usize,
         variables: Vec<usize>,
     ) -> Result<Self, Error> {
+        refuse(&at.description, "bands of amplitudes near a resonance")?;
         let infos = &at.description.excitations;
         let first = infos.get(excitation).map_or(excitation, |info| info.with);
         let shift = equilibrium_shift(mechanism, at)?.by_design;

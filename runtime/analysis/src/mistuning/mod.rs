@@ -22,6 +22,7 @@ use crate::eigenproblem::{Pairs, symmetric};
 use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::sensitivity::directions;
+use crate::shafts::refuse;
 use crate::tolerance::{Draw, Tolerances};
 use crate::{Complex, Description, Equilibrium, Error, Shared, Text, Watch};
 
@@ -132,6 +133,7 @@ pub fn mistuning(
     watch: Watch<'_>,
 ) -> Result<Mistuning, Error> {
     let description = &at.description;
+    refuse(description, "mistuning")?;
     let ring = ring(description, asked)?;
     let slots = &ring.coordinates[asked.coordinate * ring.members..(asked.coordinate + 1) * ring.members];
     let alike = alike(ring, &at.design);

@@ -14,6 +14,7 @@ use crate::sensitivity::{
     BilinearForm, ComplexGradient, Direction, ModeSensitivity, Quantity, Slopes, directions, eigenvalue_curvature,
     eigenvalue_slope, form_gradient, form_gradients_along, normaliser, outside_domain,
 };
+use crate::shafts::refuse;
 use crate::shapes::Shapes;
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
@@ -266,6 +267,7 @@ impl<'a> AdjointGradient<'a> {
         family: Family,
         mode: &'a Mode,
     ) -> Result<Self, Error> {
+        refuse(&at.description, "second derivatives of modes")?;
         let adjoint = Adjoint::new(mechanism, at)?;
         let kernels: &dyn Kernels = mechanism;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);

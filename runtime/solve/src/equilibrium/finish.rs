@@ -12,7 +12,7 @@ use crate::error::NotFound;
 use crate::free::FreeDirections;
 use crate::kernels::Linear;
 use crate::rounding::CheckedState;
-use crate::shafts::{self, Shafts};
+use crate::shafts;
 use crate::{DampingKind, Equilibrium, Mode, Stability};
 
 /// A finished state.
@@ -73,10 +73,14 @@ pub(crate) fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Resu
     if let Some(pose) = state.pose.take_if(|pose| pose.margin < pose.least) {
         return Err(Failure::BentTooFar(pose));
     }
-    state.spans = shafts::numbers(point.mechanism, &state.description, point.inputs, point.design);
-    let verdict = if !state.spans.is_empty() {
-        judge_shafts(point, state)
-    } else if state.constraints.singular {
+    if !state.description.spans.is_empty()
+        && let Some((stability, modes)) =
+            shafts::judge(point.mechanism, state, point.nearby, point.needed != Needed::State)
+    {
+        state.stability = stability;
+        return Ok(modes);
+    }
+    let verdict = if state.constraints.singular {
         Verdict::undecided()
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
         Verdict::without_modes(Stability::Stable, 0.0)
@@ -94,16 +98,6 @@ pub(crate) fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Resu
     };
     (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
     Ok(verdict.modes)
-}
-
-/// Judges a state with shafts by their lowest modes.
-fn judge_shafts(point: &OperatingPoint<'_>, state: &Equilibrium) -> Verdict {
-    if point.needed == Needed::State || state.constraints.singular {
-        return Verdict::undecided();
-    }
-    let found = Shafts::of(state).ok().flatten().and_then(|shafts| shafts.modes(state, point.nearby));
-    let Some(modes) = found else { return Verdict::undecided() };
-    Verdict { modes: modes.clone(), ..Verdict::without_modes(Shafts::stability(state, &modes), 0.0) }
 }
 
 /// Determines the reactions of a state, and measures the state.

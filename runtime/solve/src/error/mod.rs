@@ -181,7 +181,9 @@ pub enum Error {
         reason: Text,
     },
     /// A question that takes all modes or all equations, of a mechanism with shafts.
-    #[error("{what}: not for mechanisms with a `shaft`, whose equations are not all compiled; chains of `beam`s have them")]
+    #[error(
+        "{what}: not for mechanisms with a `shaft`, whose equations are not all compiled; chains of `beam`s have them"
+    )]
     NotWithShafts {
         /// What was asked.
         what: Text,

@@ -32,10 +32,10 @@ pub use blades::{BladePattern, Travel, ring_speeds};
 #[doc(hidden)]
 pub use constrained::free_pairs;
 pub(crate) use deflation::deflated;
-pub(crate) use normalisation::normalise_by_mass;
 #[doc(hidden)]
 pub use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
+pub(crate) use normalisation::normalise_by_mass;
 #[doc(hidden)]
 pub use normalisation::{Normalisation, lead};
 #[doc(hidden)]

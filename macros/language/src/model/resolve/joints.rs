@@ -100,7 +100,8 @@ impl Resolver<'_> {
     fn station_before_to(&mut self, joint: &ast::Joint, value: &Value) -> Option<Frame> {
         let station = self.station(&joint.from, value);
         if station.is_none() {
-            let message = "before `to` stands a place along a beam or a shaft: `at tip`, `at 0.4 length` or `at station 4`";
+            let message =
+                "before `to` stands a place along a beam or a shaft: `at tip`, `at 0.4 length` or `at station 4`";
             let help = format!("place the joint after its sides: `from {0} to {1} at ...`", joint.from, joint.to);
             self.diagnostics.error_with_help(value.extent, message, help);
         }

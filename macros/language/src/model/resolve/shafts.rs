@@ -226,7 +226,8 @@ impl Resolver<'_> {
                 [outer, inner] => (outer, Some(inner)),
                 _ => {
                     let message = format!("a layer of section {number} has an outer diameter and perhaps an inner one");
-                    let help = "name the material before the next layer: `[80 mm, 40 mm, 20 mm, steel, 44 mm, 40 mm, bronze]`";
+                    let help =
+                        "name the material before the next layer: `[80 mm, 40 mm, 20 mm, steel, 44 mm, 40 mm, bronze]`";
                     self.diagnostics.error_with_help(entry.extent, message, help);
                     return None;
                 }

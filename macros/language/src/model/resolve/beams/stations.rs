@@ -85,7 +85,8 @@ impl Resolver<'_> {
             ValueKind::Name(word) if word == "root" => 0,
             ValueKind::Fraction(_) => {
                 let message = "things stand on a shaft between two sections";
-                let help = format!("write `{frame} at station 4` for the end of its fourth section; divide a section in two");
+                let help =
+                    format!("write `{frame} at station 4` for the end of its fourth section; divide a section in two");
                 self.diagnostics.error_with_help(value.extent, message, help);
                 return Some(None);
             }

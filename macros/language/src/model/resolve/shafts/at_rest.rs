@@ -108,18 +108,16 @@ impl Resolver<'_> {
         let determinant = give[0][0].times(&give[1][1]).less(&give[0][1].times(&give[1][0]));
         let inverse = determinant.inverse();
         let entry = |x: &Complex, sign: f64| x.times(&inverse).scaled(&Expr::Number(sign));
-        let stiffness = [
-            [entry(&give[1][1], 1.0), entry(&give[0][1], -1.0)],
-            [entry(&give[1][0], -1.0), entry(&give[0][0], 1.0)],
-        ];
-        let stiffness = stiffness
-            .map(|row| row.map(|Complex(re, im)| Complex(self.shared_of_shaft(name, re), self.shared_of_shaft(name, im))));
+        let stiffness =
+            [[entry(&give[1][1], 1.0), entry(&give[0][1], -1.0)], [entry(&give[1][0], -1.0), entry(&give[0][0], 1.0)]];
+        let stiffness = stiffness.map(|row| {
+            row.map(|Complex(re, im)| Complex(self.shared_of_shaft(name, re), self.shared_of_shaft(name, im)))
+        });
         let [force, moment] = [0, 1].map(|k| stiffness[k][0].times(&d[0]).plus(&stiffness[k][1].times(&d[1])));
         let loads = [weight.scaled(&load), weight.scaled(&turned)];
         if stiffness.iter().flatten().all(|x| x.1 == ZERO) {
-            let product = |a: &Complex, b: &Complex| {
-                add(multiply(a.0.clone(), b.0.clone()), multiply(a.1.clone(), b.1.clone()))
-            };
+            let product =
+                |a: &Complex, b: &Complex| add(multiply(a.0.clone(), b.0.clone()), multiply(a.1.clone(), b.1.clone()));
             let twice = add(product(&d[0], &force), product(&d[1], &moment));
             let elastic = multiply(Expr::Number(0.5), twice);
             let of_load = subtract(product(&loads[1], &b_last), product(&loads[0], &w_last));

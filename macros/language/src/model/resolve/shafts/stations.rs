@@ -10,14 +10,20 @@ use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::base::names::joined;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, JointStep, LUMPED, Line, Motion, Placement, Shaft, ShaftStation,
-    Span, StepMotion,
+    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, JointStep, LUMPED, Line, Motion, Placement,
+    Shaft, ShaftStation, Span, StepMotion,
 };
 use crate::model::simplify::{add, dot, multiply, power_integer};
 
 /// The names of the coordinates of a station, their axes, and whether they turn. The order is that of their motions.
-const MOTIONS: [(&str, usize, bool); 6] =
-    [("y", 1, false), ("z", 2, false), ("turn_y", 1, true), ("turn_z", 2, true), ("stretch", 0, false), ("twist", 0, true)];
+const MOTIONS: [(&str, usize, bool); 6] = [
+    ("y", 1, false),
+    ("z", 2, false),
+    ("turn_y", 1, true),
+    ("turn_z", 2, true),
+    ("stretch", 0, false),
+    ("twist", 0, true),
+];
 
 impl Resolver<'_> {
     /// The shafts, whose stations `bodies` holds already, from the given one on; joints, coordinates and what the shafts do
@@ -43,8 +49,10 @@ impl Resolver<'_> {
                 .collect();
             places.push((0, BodyId::new(root)));
             places.sort_by_key(|(place, _)| *place);
-            let stations: Vec<ShaftStation> =
-                places.iter().map(|&(place, body)| self.shaft_station(name, declared, place, body, bodies, joints)).collect();
+            let stations: Vec<ShaftStation> = places
+                .iter()
+                .map(|&(place, body)| self.shaft_station(name, declared, place, body, bodies, joints))
+                .collect();
             let mut spans = Vec::new();
             for ends in stations.windows(2) {
                 spans.extend(self.spans(name, declared, [&ends[0], &ends[1]], gravity, forces));
@@ -151,10 +159,8 @@ impl Resolver<'_> {
         let mut spans = Vec::new();
         for (line, motions, sections) in lines {
             // Each number is computed once for everything that uses it.
-            let sections: Vec<[Expr; 8]> = sections
-                .into_iter()
-                .map(|row| row.map(|number| self.shared_of_shaft(name, number)))
-                .collect();
+            let sections: Vec<[Expr; 8]> =
+                sections.into_iter().map(|row| row.map(|number| self.shared_of_shaft(name, number))).collect();
             let of_end = |end: &ShaftStation| {
                 motions.iter().filter_map(|(k, factor)| Some((end.coordinates[*k]?, *factor))).collect()
             };
@@ -177,7 +183,6 @@ impl Resolver<'_> {
         }
         spans
     }
-
 
     /// Half the inertia of a span at each end, so that all its coordinates move some in the equations that are compiled. The
     /// run time takes the same away again ([`LUMPED`]).
