@@ -28,6 +28,8 @@ pub struct Mode {
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
 const CLOSE: f64 = 1e-9;
+/// A relative step behind which the next, unless it is much smaller, is rounding.
+const STAYS: f64 = 1e-6;
 /// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
 const RIGID: f64 = 1e-4;
 /// Radians by which a determinant may turn in half a step along an edge.
@@ -146,6 +148,7 @@ impl Assembly {
         let Mode { mut s, .. } = *mode;
         let mut on = self.slope_loads(&mode.right, s, Side::Right);
         let mut on_left = self.slope_loads(&mode.left, s, Side::Left);
+        let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let at = self.beside(s)?;
             // T(s) right = on, so that on is what is left of the equations.
@@ -161,8 +164,10 @@ impl Assembly {
             if !step.is_finite() {
                 break;
             }
-            // What remains is the cube of the last step.
-            if step < CLOSE {
+            // What remains is the cube of the last step, or rounding where steps no longer shrink.
+            let stays = step > 0.1 * last && last < STAYS;
+            last = step;
+            if step < CLOSE || stays {
                 return Ok(Mode { s, right, left });
             }
             on_left = self.slope_loads(&left, s, Side::Left);

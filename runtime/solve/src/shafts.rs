@@ -231,19 +231,22 @@ impl ShaftSlopes {
     #[doc(hidden)]
     pub fn add(&self, left: &[Complex], s: Complex, right: &[Complex], mut add: impl FnMut(usize, Complex)) {
         let gradient = self.shafts.gradient(left, s, right);
-        for (k, row) in self.slopes.iter().enumerate() {
-            add(k, row.iter().zip(&gradient).map(|(slope, by_number)| by_number * slope).sum());
-        }
+        (0..self.slopes.row_count()).for_each(|k| add(k, self.along(&gradient, k)));
     }
-}
 
-impl ShaftSlopes {
-    /// The derivative of `left^T T(s) right` by an input, at fixed compiled matrices.
+    /// A derivative by an input, or behind these by a design variable, from those by numbers.
     #[doc(hidden)]
     #[must_use]
-    pub fn along_input(&self, left: &[Complex], s: Complex, right: &[Complex], input: usize) -> Complex {
-        let gradient = self.shafts.gradient(left, s, right);
-        self.slopes[input].iter().zip(&gradient).map(|(slope, by_number)| by_number * slope).sum()
+    pub fn along(&self, gradient: &[Complex], variable: usize) -> Complex {
+        self.slopes[variable].iter().zip(gradient).map(|(slope, by_number)| by_number * slope).sum()
+    }
+
+    /// Derivatives of `psi_i^T T(s_j) phi_j` by the numbers of the spans, for each two of these modes, row by row.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn between(&self, modes: &[&Mode]) -> Vec<Vector<Complex>> {
+        let each = modes.iter().flat_map(|a| modes.iter().map(move |b| (a, b)));
+        each.map(|(a, b)| self.shafts.gradient(a.left(), b.s, &b.shape)).collect()
     }
 }
 

@@ -7,7 +7,7 @@
 mod bars;
 mod bent;
 mod buckled;
-mod compared;
+pub(crate) mod compared;
 mod composed;
 mod converged;
 mod coupled;

@@ -2,3 +2,4 @@
 
 mod beams;
 mod flexible;
+mod shafts;

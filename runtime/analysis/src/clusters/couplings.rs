@@ -3,11 +3,11 @@
 //! Dailey 1989).
 
 use crate::algebra::{Matrix, Vector, dot_complex, times_columns};
-use crate::kernels::{DirectionalKernels, Linear};
+use crate::kernels::{DirectionalKernels, Kernels, Linear};
 use crate::modes::{Family, pencil_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{check_modes, directions, normaliser};
-use crate::shafts::refuse;
+use crate::shafts::ShaftSlopes;
 use crate::tolerance::Tolerances;
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
@@ -126,14 +126,14 @@ pub fn modal_couplings(
         return Err(Error::NoSuchMode { mode, count });
     }
     check_modes(at, modes)?;
-    refuse(&at.description, "couplings of modes with equal eigenvalues")?;
     let members: Vec<&Mode> = positions.iter().map(|&r| &modes.modes[r]).collect();
     let undamped = Undamped::new(&members);
-    let mut matrices = directions(mechanism, at)?.map(|along| {
+    let damped = General::new(mechanism, at, of_family(modes.family, &members))?;
+    let mut matrices = directions(mechanism, at)?.enumerate().map(|(variable, along)| {
         let change = along.linear(mechanism, at);
         match modes.family {
             Family::Undamped => undamped.couplings(&change).map(Complex::from),
-            Family::General => general(at, &members, &change),
+            Family::General => damped.couplings(&change, variable),
         }
     });
     let by_input: Vec<_> = matrices.by_ref().take(at.inputs.len()).collect();
@@ -208,14 +208,39 @@ fn upper_product(rows: &Matrix, columns: &Matrix) -> Matrix {
     product
 }
 
-/// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system
-/// between its left and right vectors.
-fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Complex> {
-    let moved = members.iter().map(|b| pencil_times(change, b.s, &b.shape));
-    let moved: Vec<_> = moved.collect();
-    let normalisers: Vec<Complex> = members.iter().map(|a| normaliser(at, a)).collect();
-    let count = members.len();
-    Matrix::from_fn(count, count, |i, j| -dot_complex(members[i].left(), &moved[j]) / normalisers[i])
+/// The modes if they are general.
+fn of_family<'a>(family: Family, members: &'a [&'a Mode]) -> &'a [&'a Mode] {
+    if family == Family::General { members } else { &[] }
+}
+
+/// General modes, with what their couplings need of shafts.
+struct General<'a> {
+    members: &'a [&'a Mode],
+    normalisers: Vec<Complex>,
+    shafts: Option<(ShaftSlopes, Vec<Vector<Complex>>)>,
+}
+
+impl<'a> General<'a> {
+    fn new(mechanism: &dyn Kernels, at: &Equilibrium, members: &'a [&'a Mode]) -> Result<Self, Error> {
+        let shafts = ShaftSlopes::of(mechanism, at)?.map(|shafts| {
+            let between = shafts.between(members);
+            (shafts, between)
+        });
+        Ok(Self { members, normalisers: members.iter().map(|a| normaliser(at, a)).collect(), shafts })
+    }
+
+    /// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system
+    /// between its left and right vectors, with an input or, behind these, a design variable.
+    fn couplings(&self, change: &Linear, variable: usize) -> Matrix<Complex> {
+        let Self { members, normalisers, shafts } = self;
+        let count = members.len();
+        let moved: Vec<_> = members.iter().map(|b| pencil_times(change, b.s, &b.shape)).collect();
+        Matrix::from_fn(count, count, |i, j| {
+            let compiled = dot_complex(members[i].left(), &moved[j]);
+            let of_shafts = shafts.as_ref().map(|(shafts, between)| shafts.along(&between[i * count + j], variable));
+            -(compiled + of_shafts.unwrap_or_default()) / normalisers[i]
+        })
+    }
 }
 
 /// Standard deviations of what moves and mixes each pair of modes.
@@ -242,10 +267,11 @@ impl PairSpreads {
         let members: Vec<&Mode> = modes.modes.iter().collect();
         let count = members.len();
         let undamped = Undamped::new(&members);
+        let damped = General::new(mechanism, at, of_family(modes.family, &members))?;
         let zeros = || Matrix::zeros(count, count);
         let (mut apart, mut coupling) = (zeros(), zeros());
-        let directions = directions(mechanism, at)?.skip(at.inputs.len());
-        for (along, sigma) in directions.zip(tolerances.sigmas()) {
+        let directions = directions(mechanism, at)?.enumerate().skip(at.inputs.len());
+        for ((variable, along), sigma) in directions.zip(tolerances.sigmas()) {
             if *sigma == 0.0 {
                 continue;
             }
@@ -262,7 +288,7 @@ impl PairSpreads {
                     }
                 }
                 Family::General => {
-                    let projection = general(at, &members, &change);
+                    let projection = damped.couplings(&change, variable);
                     for i in 0..count {
                         for j in 0..count {
                             apart[i][j] += variance * (projection[i][i] - projection[j][j]).norm_sqr();

@@ -10,7 +10,7 @@ use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, 
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros};
 use crate::modes::{Family, pencil_slope_times};
-use crate::shafts::ShaftSlopes;
+use crate::shafts::{ShaftSlopes, Shafts};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode with respect to every input and design variable.
@@ -178,21 +178,16 @@ impl AdjointContext<'_> {
             self.total(part, &mut room[0]);
         }
         let [re, im] = gradient;
-        let scale = match &self.shafts {
-            None => -normaliser(self.at, mode),
-            Some(shafts) => {
-                let (left, s, right) = (mode.left(), mode.s, &mode.shape);
-                shafts.add(left, s, right, |k, slope| {
-                    let inputs = re.inputs.len();
-                    let (re, im) = match k.checked_sub(inputs) {
-                        None => (&mut re.inputs[k], &mut im.inputs[k]),
-                        Some(k) => (&mut re.design[k], &mut im.design[k]),
-                    };
-                    (*re, *im) = (*re + slope.re, *im + slope.im);
-                });
-                -dot_complex(left, &shafts.shafts.slope_times(s, right))
-            }
-        };
+        if let Some(shafts) = &self.shafts {
+            shafts.add(mode.left(), mode.s, &mode.shape, |k, slope| {
+                let (re, im) = match k.checked_sub(re.inputs.len()) {
+                    None => (&mut re.inputs[k], &mut im.inputs[k]),
+                    Some(k) => (&mut re.design[k], &mut im.design[k]),
+                };
+                (*re, *im) = (*re + slope.re, *im + slope.im);
+            });
+        }
+        let scale = -normaliser(self.at, mode);
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
         let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
         let by_design = re.design.iter().zip(&im.design).map(slope);
@@ -279,7 +274,11 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
     }
 }
 
-/// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
+/// `psi^T (2 s Mhat + Chat) phi`, with shafts `psi^T T'(s) phi`; zero where the eigenvalue has merged with another.
 pub fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
-    dot_complex(mode.left(), &pencil_slope_times(&at.linear, mode.s, &mode.shape))
+    let moved = match Shafts::of(at) {
+        Ok(Some(shafts)) => shafts.slope_times(mode.s, &mode.shape),
+        _ => pencil_slope_times(&at.linear, mode.s, &mode.shape),
+    };
+    dot_complex(mode.left(), &moved)
 }

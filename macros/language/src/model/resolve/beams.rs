@@ -266,7 +266,7 @@ impl Resolver<'_> {
         None
     }
 
-    fn require_of_beam(&mut self, name: &Ident, what: &str, value: &Expr, dimension: Dimension, at: &Value) {
+    pub(super) fn require_of_beam(&mut self, name: &Ident, what: &str, value: &Expr, dimension: Dimension, at: &Value) {
         self.requirements.push(Requirement {
             what: format!("the {what} of `{name}`"),
             values: vec![value.clone()],

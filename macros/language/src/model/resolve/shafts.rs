@@ -8,13 +8,14 @@ use proc_macro2::Ident;
 use super::arguments::Arguments;
 use super::beams::table::{Kind, Properties, Table};
 use super::bodies::{Row, SHAFT};
+use super::expected::Expected;
 use super::placements::zero;
 use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Line;
 use crate::model::rules::physical::{Demand, Requirement};
-use crate::model::simplify::{add, multiply};
+use crate::model::simplify::{add, divide, multiply};
 use crate::syntax::ast::{self, Term, Value, ValueKind};
 
 /// Elements of a whole shaft at least: waves longer than an eighth of it have errors below `1e-8`.
@@ -29,6 +30,7 @@ pub(in crate::model::resolve) struct Declared {
     axes: [Vector; 3],
     speed: Expr,
     lag: Expr,
+    drag: Expr,
     sections: Vec<Section>,
     /// What bends, and whether it twists and stretches.
     bending: Option<Line>,
@@ -37,6 +39,9 @@ pub(in crate::model::resolve) struct Declared {
     elements: usize,
     positive: Vec<(String, Expr)>,
 }
+
+/// A material, and the share of the area that carries shear if it is given.
+type Whole = (Properties, Option<Expr>);
 
 /// A row of the table: numbers of all its layers together.
 #[derive(Clone, Debug)]
@@ -118,8 +123,19 @@ impl Resolver<'_> {
             },
             None => Some(zero()),
         };
+        let drag = match given.get("drag") {
+            Some(value) => self.scalar_of(value, Dimension::new(-1, 1, -1), "`drag`"),
+            None => Some(Expr::Number(0.0)),
+        };
         let material = self.material_of(name, given);
-        let sections = given.get("sections").and_then(|value| self.sections_of_shaft(name, value, material.as_ref()?));
+        let coefficient = match given.get("shear_coefficient") {
+            Some(value) => self.scalar_of(value, Expected::ratio(), "`shear_coefficient`").map(Some),
+            None => Some(None),
+        };
+        let sections = match given.get("sections") {
+            Some(value) => material.zip(coefficient).and_then(|whole| self.sections_of_shaft(name, value, &whole)),
+            None => self.section_by_numbers(name, &shaft.shape.word, given, bends, lines),
+        };
         let (bends, [bending, twists, stretches]) = (bends?, lines?);
         let (axes, sections) = (axes?, sections?);
         let positive = positive(&self.requirements[before..]);
@@ -128,6 +144,7 @@ impl Resolver<'_> {
             axes,
             speed: speed?,
             lag: lag?,
+            drag: drag?,
             sections,
             bending: bending.then_some(bends),
             twists,
@@ -161,7 +178,51 @@ impl Resolver<'_> {
         lines.contains(&true).then_some(lines)
     }
 
-    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Properties) -> Option<Vec<Section>> {
+    /// The only section of a shaft that is given by numbers.
+    fn section_by_numbers(
+        &mut self,
+        name: &Ident,
+        word: &Ident,
+        given: &Arguments<'_>,
+        bends: Option<Line>,
+        lines: Option<[bool; 3]>,
+    ) -> Option<Vec<Section>> {
+        let [bending, twists, stretches] = lines?;
+        let shears = bending && bends == Some(Line::Timoshenko);
+        let force = Dimension::FORCE;
+        let moment = Dimension::new(3, 1, -2);
+        let asked = [
+            ("length", Dimension::LENGTH, true),
+            ("mass_per_length", Dimension::LINE_DENSITY, bending || stretches),
+            ("inertia", Dimension::new(1, 1, 0), twists),
+            ("stiffness", moment, bending),
+            ("shear_stiffness", force, shears),
+            ("torsion_stiffness", moment, twists),
+            ("axial_stiffness", force, stretches),
+        ];
+        let mut numbers = Vec::new();
+        for (argument, dimension, needed) in asked {
+            numbers.push(match given.get(argument) {
+                Some(value) => self.scalar_of(value, dimension, &format!("`{argument}`")).inspect(|number| {
+                    self.require_of_beam(name, &argument.replace('_', " "), number, dimension, value);
+                }),
+                None if needed => {
+                    let message = format!("`shaft` needs `sections`, or `{argument}` and other numbers of its only one");
+                    let help = "write `sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]], material: steel`";
+                    self.diagnostics.error_with_help(word, message, help);
+                    return None;
+                }
+                None => Some(Expr::Number(0.0)),
+            });
+        }
+        let numbers: Vec<Expr> = numbers.into_iter().collect::<Option<_>>()?;
+        let [length, mass, rotary, bending, shear, twist, stretch] = <[Expr; 7]>::try_from(numbers).ok()?;
+        let polar = multiply(Expr::Number(2.0), rotary.clone());
+        let outer = Expr::Number(0.0);
+        Some(vec![Section { length, outer, mass, rotary, polar, bending, shear, twist, stretch }])
+    }
+
+    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Section>> {
         let rows: Option<Vec<&[Value]>> = match &value.kind {
             ValueKind::Vector(rows, None) if !rows.is_empty() => rows.iter().map(row_of).collect(),
             _ => None,
@@ -208,7 +269,7 @@ impl Resolver<'_> {
         number: usize,
         entries: &[Value],
         at: &Value,
-        whole: &Properties,
+        whole: &Whole,
     ) -> Option<Vec<(Expr, crate::model::mechanism::Section)>> {
         let mut layers = Vec::new();
         let mut sizes: Vec<&Value> = Vec::new();
@@ -233,14 +294,14 @@ impl Resolver<'_> {
                 }
             };
             sizes.clear();
-            let material = material.map_or_else(|| Some(whole.clone()), |material| material)?;
+            let material = material.map_or_else(|| Some(whole.0.clone()), |material| material)?;
             if let Some(missing) = missing(&material) {
                 let message = format!("section {number} of `{name}` has no {missing}");
                 let help = "write `material: steel` and declare `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
                 self.diagnostics.error_with_help(entry.extent, message, help);
                 return None;
             }
-            layers.push(self.layer(name, number, outer, inner, material)?);
+            layers.push(self.layer(name, number, (outer, inner), (material, whole.1.clone()))?);
         }
         if layers.is_empty() {
             let message = format!("section {number} of `{name}` has a length and no diameter");
@@ -261,9 +322,8 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         number: usize,
-        outer: &Value,
-        inner: Option<&Value>,
-        material: Properties,
+        (outer, inner): (&Value, Option<&Value>),
+        (material, coefficient): Whole,
     ) -> Option<(Expr, crate::model::mechanism::Section)> {
         let diameter = self.size_of_section(name, number, "outer diameter", outer);
         let bore = match inner {
@@ -295,7 +355,16 @@ impl Resolver<'_> {
             is_flat: false,
             is_matrix: false,
         };
-        Some((diameter, table.section(0.0, (&Expr::Number(0.0), &none()))))
+        let mut section = table.section(0.0, (&Expr::Number(0.0), &none()));
+        if let (Some(coefficient), Some(modulus), Some(shear)) =
+            (coefficient, table.material.modulus, table.material.shear_modulus)
+        {
+            let [axial, ..] = &section.against_strain;
+            let area = divide(axial.clone(), modulus);
+            let shear = multiply(coefficient, multiply(shear, area));
+            section.against_strain[1..].fill(shear);
+        }
+        Some((diameter, section))
     }
 
     fn size_of_section(&mut self, name: &Ident, number: usize, what: &str, value: &Value) -> Option<Expr> {

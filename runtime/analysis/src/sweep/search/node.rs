@@ -139,7 +139,7 @@ fn general(
         };
         let changes = Matrix::from_fn(cluster.len(), cluster.len(), |i, j| {
             let (left, right) = (modes[cluster[i]].left(), &modes[cluster[j]].shape);
-            changes[i][j] + shafts.along_input(left, s, right, input) * rate
+            changes[i][j] + shafts.along(&shafts.shafts.gradient(left, s, right), input) * rate
         });
         quotient(products(&|x| shafts.shafts.slope_times(s, x)), changes)
     });

@@ -113,13 +113,32 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
 /// What a shaft takes; nothing reads it as a shape either.
 pub(in crate::model::resolve) const SHAFT: Row = Row::new(
     "shaft",
-    &["along", "up", "sections"],
+    &["along", "up"],
     "shaft(along: x, up: z, sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]], material: steel)",
     |_| None,
 )
-.optional(&["material", "density", "modulus", "shear_modulus", "poisson", "lines", "shear", "lag", "elements"])
+.optional(&[
+    "sections",
+    "material",
+    "density",
+    "modulus",
+    "shear_modulus",
+    "poisson",
+    "shear_coefficient",
+    "length",
+    "mass_per_length",
+    "inertia",
+    "stiffness",
+    "shear_stiffness",
+    "torsion_stiffness",
+    "axial_stiffness",
+    "lines",
+    "shear",
+    "lag",
+    "drag",
+    "elements",
+])
 .refusing(&[
-    ("length", "its `sections` have lengths; a rigid shaft is a `cylinder`"),
     ("mass", "a rigid shaft is a `cylinder`; a flexible one has a `material`"),
     ("radius", "a rigid shaft is a `cylinder`; a flexible one has `sections`"),
     ("axis", "the shaft runs `along` its axis; `up` is one of the two directions in which it bends"),

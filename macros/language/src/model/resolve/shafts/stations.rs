@@ -131,25 +131,28 @@ impl Resolver<'_> {
     ) -> Vec<Span> {
         let sections = &declared.sections[ends[0].place..ends[1].place];
         let zero = || Expr::Number(0.0);
-        let lag = &declared.lag;
+        let (lag, drag) = (&declared.lag, &declared.drag);
         let mut lines: Vec<(Line, &[(usize, f64)], Vec<[Expr; 8]>)> = Vec::new();
-        let numbers = |of: &dyn Fn(&Section) -> [Expr; 4]| -> Vec<[Expr; 8]> {
+        let numbers = |of: &dyn Fn(&Section) -> [Expr; 5]| -> Vec<[Expr; 8]> {
             let row = |own: &Section| {
-                let [stiffness, shear, mass, rotary] = of(own);
-                [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), zero(), zero()]
+                let [stiffness, shear, mass, rotary, drag] = of(own);
+                [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), zero(), drag]
             };
             sections.iter().map(row).collect()
         };
         if let Some(line) = declared.bending {
-            let of = |own: &Section| [own.bending.clone(), own.shear.clone(), own.mass.clone(), own.rotary.clone()];
+            let of = |own: &Section| {
+                let [bending, shear, mass, rotary] = [&own.bending, &own.shear, &own.mass, &own.rotary].map(Clone::clone);
+                [bending, shear, mass, rotary, drag.clone()]
+            };
             lines.push((line, &[(0, 1.0), (3, 1.0), (1, 1.0), (2, -1.0)], numbers(&of)));
         }
         if declared.stretches {
-            let of = |own: &Section| [own.stretch.clone(), zero(), own.mass.clone(), zero()];
+            let of = |own: &Section| [own.stretch.clone(), zero(), own.mass.clone(), zero(), zero()];
             lines.push((Line::Bar, &[(4, 1.0)], numbers(&of)));
         }
         if declared.twists {
-            let of = |own: &Section| [own.twist.clone(), zero(), own.polar.clone(), zero()];
+            let of = |own: &Section| [own.twist.clone(), zero(), own.polar.clone(), zero(), zero()];
             lines.push((Line::Bar, &[(5, 1.0)], numbers(&of)));
         }
         let lengths: Vec<f64> = declared.sections.iter().map(|own| self.nominal_of(&own.length)).collect();

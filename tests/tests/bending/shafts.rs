@@ -1,0 +1,4 @@
+//! Stepped shafts in the language: exact solutions (`tests/truth/flexible`), what they must be equal to, and derivatives
+//! against differences.
+
+mod exact;

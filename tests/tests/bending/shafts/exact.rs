@@ -1,0 +1,285 @@
+//! Closed forms and transfer matrices in seventy digits.
+
+use std::fmt::Write;
+
+use eigentol::forced::Measure;
+use eigentol::{Complex, Input, Output, Study};
+use eigentol_interpreter::Interpreted;
+use serde_json::Value;
+
+use crate::beams::compared::{design, numbers, parameter, study, truth};
+
+fn names(study: &Study<Interpreted>) -> Vec<String> {
+    study.description().design.iter().map(|variable| variable.name.to_string()).collect()
+}
+
+/// Simple supports of both ends of `rotor`.
+const SUPPORTS: &str = "point left: rotor at root; point right: rotor at tip;
+    constraint left_y: equation(zero: position(left).y); constraint left_z: equation(zero: position(left).z);
+    constraint right_y: equation(zero: position(right).y); constraint right_z: equation(zero: position(right).z);";
+
+#[test]
+fn a_spinning_shaft() {
+    let file = truth(include_str!("../../../truth/flexible/F7_spinning_shaft.json"));
+    let parameters = [("L", "m"), ("EI", "N*m^2"), ("kGA", "N"), ("rhoA", "kg/m"), ("rhoI", "kg*m")];
+    let text = format!(
+        "mechanism Shaft {{
+            input omega: rad/s; {}
+            body rotor: shaft(along: x, up: z, length: L, stiffness: EI, shear_stiffness: kGA, mass_per_length: rhoA,
+                inertia: rhoI, elements: 40) spinning at omega;
+            {SUPPORTS}
+        }}",
+        design(&file, &parameters)
+    );
+    for case in file["cases"].as_array().expect("cases") {
+        let speed = case["Omega"].as_f64().expect("a speed");
+        let study = study(&text, Some(speed));
+        let (modes, sensitivities) = (study.modes().expect("modes"), study.sensitivities().expect("derivatives"));
+        let all = numbers(&case["omega"]);
+        // Negative frequencies are backward whirl; of each number of waves the two of lowest frequency.
+        for (k, omega) in all.iter().enumerate().filter(|(k, _)| [1, 2].contains(&(k % 4))) {
+            let near = |mode: &usize| (modes.modes[*mode].s.im / omega.abs() - 1.0).abs() < 1e-8;
+            let mode = (0..modes.modes.len()).find(near).unwrap_or_else(|| panic!("{speed}: no mode near {omega}"));
+            if speed == 0.0 {
+                continue;
+            }
+            let slopes = sensitivities.modes[mode].s().expect("derivatives");
+            let first = |name: &str| numbers(&case["derivatives"][name]["first"])[k] * omega.signum();
+            for (name, slope) in names(&study).iter().zip(&slopes.by_design) {
+                let expected = first(name);
+                assert!((slope.im / expected - 1.0).abs() < 1e-8, "{speed} {omega} {name}: {slope} {expected}");
+            }
+            let expected = first("Omega");
+            assert!((slopes.by_input[0].im / expected - 1.0).abs() < 1e-8, "{speed} {omega}: {expected}");
+        }
+    }
+}
+
+/// Material that lags and air that resists: eigenvalues, the speed of the onset, and derivatives of both.
+#[test]
+fn internal_damping() {
+    let file = truth(include_str!("../../../truth/flexible/F8_internal_damping.json"));
+    let parameters = [("L", "m"), ("EI", "N*m^2"), ("rhoA", "kg/m"), ("rhoI", "kg*m"), ("c", "N*s/m^2"), ("eta", "s")];
+    let text = format!(
+        "mechanism Shaft {{
+            input omega: rad/s; {}
+            body rotor: shaft(along: x, up: z, length: L, stiffness: EI, shear: 0, mass_per_length: rhoA, inertia: rhoI,
+                lag: eta, drag: c) spinning at omega;
+            {SUPPORTS}
+        }}",
+        design(&file, &parameters)
+    );
+    let study = study(&text, Some(parameter(&file, "Omega")));
+    let (modes, sensitivities) = (study.modes().expect("modes"), study.sensitivities().expect("derivatives"));
+    let listed = numbers(&file["eigenvalues_re_im_twice"]);
+    for (k, pair) in listed.chunks_exact(2).enumerate() {
+        let expected = Complex::new(pair[0], pair[1].abs());
+        let mode = modes.modes.iter().position(|mode| (mode.s - expected).norm() < 1e-9 * expected.norm());
+        let mode = mode.unwrap_or_else(|| panic!("no mode near {expected}"));
+        let slopes = sensitivities.modes[mode].s().expect("derivatives");
+        for (name, slope) in names(&study).iter().zip(&slopes.by_design) {
+            let first = numbers(&file["derivatives"][name.as_str()]["first"]);
+            let expected = Complex::new(first[2 * k], first[2 * k + 1] * pair[1].signum());
+            assert!((slope - expected).norm() < 1e-8 * expected.norm(), "{name}: {slope} {expected}");
+        }
+    }
+    let tolerances = study.clone().flutter_onset_tolerances(Input::new(0), 0.0, 1000.0).expect("onsets");
+    let [onset] = &tolerances[..] else { panic!("{tolerances:?}") };
+    let speed = numbers(&file["onset_speed_and_whirl"])[0];
+    assert!((onset.value / speed - 1.0).abs() < 1e-9, "{onset:?}");
+    let spread = onset.spread.as_ref().expect("a derivative");
+    for (name, own) in names(&study).iter().zip(&spread.by_design) {
+        let expected = numbers(&file["onset_derivatives"][name.as_str()]["first"])[0];
+        assert!((own / expected - 1.0).abs() < 1e-8, "{name}: {own} {expected}");
+    }
+}
+
+/// Nelson and McVaugh's rotor with bearings of these numbers, and more declarations.
+fn rotor(rotor: &Value, theory: &str, more: &str, [stiffness, damping]: [[&str; 4]; 2]) -> String {
+    let sections = rotor["sections"].as_array().expect("sections");
+    let mut rows = String::new();
+    for (k, own) in sections.iter().enumerate() {
+        let [length, outer, inner] = ["L", "od", "id"].map(|key| own[key].as_f64().expect("a number"));
+        let outer = if k == 9 { "od_10".to_owned() } else { format!("{outer} m") };
+        write!(rows, "[{length} m, {outer}, {inner} m],").expect("text");
+    }
+    let steel = |key: &str| sections[0][key].as_f64().expect("a number");
+    let disc = |key: &str| rotor["discs"][0][key].as_f64().expect("a number");
+    let bearing = |[a, b, c, d]: [&str; 4]| format!("[[0, 0, 0], [0, {a}, {b}], [0, {c}, {d}]]");
+    let at = |station: usize| -> f64 { sections[..station].iter().map(|own| own["L"].as_f64().expect("a number")).sum() };
+    let mut bearings = String::new();
+    for station in [10, 14] {
+        write!(
+            bearings,
+            "point seat_{station}: ground at [{} m, 0, 0]; point journal_{station}: rotor at station {station};
+            force film_{station}: bushing(from: seat_{station}, to: journal_{station}, stiffness: {}, damping: {});",
+            at(station),
+            bearing(stiffness),
+            bearing(damping)
+        )
+        .expect("text");
+    }
+    format!(
+        "mechanism Rotor {{
+            input omega: rad/s;
+            design disc_mass = {} kg; design disc_Ip = {} kg*m^2; design od_10 = {} m;
+            design modulus = {} Pa;
+            design kxx = 43.78 MN/m; design cyy = 1752 N*s/m;
+            material steel: density {} kg/m^3, modulus modulus, shear_modulus {} Pa;
+            body rotor: shaft(along: x, up: z, material: steel, shear_coefficient: {}, elements: 100, sections: [{rows}]{theory})
+                spinning at omega;
+            body disc: rigid(mass: disc_mass, inertia: [disc_Ip, {Id} kg*m^2, {Id} kg*m^2]);
+            joint turns: revolute(x) from rotor at station 4 to disc, driven at omega;
+            {bearings} {more}
+        }}",
+        disc("m"),
+        disc("Ip"),
+        sections[9]["od"].as_f64().expect("a number"),
+        steel("E"),
+        steel("rho"),
+        steel("G"),
+        steel("kappa"),
+        Id = disc("Id"),
+    )
+}
+
+const NONE: [&str; 4] = ["0", "0", "0", "0"];
+
+#[test]
+fn a_rotor_of_eighteen_sections() {
+    let file = truth(include_str!("../../../truth/flexible/F9_nelson_mcvaugh.json"));
+    for case in file["modes"].as_array().expect("cases") {
+        let theory = if case["theory"] == "rayleigh" { ", shear: 0" } else { "" };
+        let stiffness = if case["bearings"] == "isotropic" {
+            ["kxx", "0", "0", "kxx"]
+        } else {
+            ["35.03 MN/m", "-8.756 MN/m", "-8.756 MN/m", "35.03 MN/m"]
+        };
+        let text = rotor(&file["rotor"], theory, "", [stiffness, NONE]);
+        let modes = study(&text, case["Omega"].as_f64()).modes().expect("modes");
+        let exact = case["eigenvalues"].as_array().expect("eigenvalues");
+        for (mode, exact) in modes.modes.iter().zip(exact) {
+            let exact = numbers(exact);
+            let s = Complex::new(exact[0], exact[1]);
+            assert!((mode.s - s).norm() < 1e-8 * s.norm(), "{} {s}", mode.s);
+        }
+    }
+}
+
+/// Synchronous critical speeds: frequencies that the speed crosses.
+#[test]
+fn critical_speeds_of_a_rotor() {
+    let file = truth(include_str!("../../../truth/flexible/F9_nelson_mcvaugh.json"));
+    for case in file["critical"].as_array().expect("cases") {
+        let theory = if case["theory"] == "rayleigh" { ", shear: 0" } else { "" };
+        let text = rotor(&file["rotor"], theory, "", [["kxx", "0", "0", "kxx"], NONE]);
+        let study = study(&text, Some(1000.0));
+        let found = study.campbell(Input::new(0), &[1000.0, 2500.0, 4000.0, 5500.0], &[1.0]).expect("a diagram");
+        let mut speeds: Vec<f64> = found.crossings.iter().map(|own| own.value).collect();
+        speeds.sort_by(f64::total_cmp);
+        for expected in numbers(&case["synchronous_speeds_rad_s"]).into_iter().filter(|speed| *speed < 5500.0) {
+            let near = speeds.iter().any(|speed| (speed / expected - 1.0).abs() < 1e-8);
+            assert!(near, "{expected} is not among {speeds:?}");
+        }
+    }
+}
+
+#[test]
+fn an_unbalance_response() {
+    let file = truth(include_str!("../../../truth/flexible/F10_nelson_unbalance.json"));
+    let more = "unbalance heavy: on disc, amount: 6.35 g*mm, angle: 0 deg;
+        body collar: massless; joint carries: revolute(x) from rotor at station 15 to collar, driven at omega;
+        unbalance light: on collar, amount: 2 g*mm, angle: 1.2 rad;
+        point p0: rotor at root; point p4: rotor at station 4; point p10: rotor at station 10; point p14: rotor at station 14;
+        output x0 = position(p0).y; output y0 = position(p0).z; output x4 = position(p4).y; output y4 = position(p4).z;
+        output x10 = position(p10).y; output y10 = position(p10).z; output x14 = position(p14).y; output y14 = position(p14).z;";
+    for case in file["cases"].as_array().expect("cases") {
+        let [stiffness, damping] = if case["bearings"] == "isotropic" {
+            [["kxx", "0", "0", "43.78 MN/m"], ["1752 N*s/m", "0", "0", "cyy"]]
+        } else {
+            [["kxx", "-8.756 MN/m", "-8.756 MN/m", "35.03 MN/m"], ["1752 N*s/m", "0", "0", "cyy"]]
+        };
+        let text = rotor(&file["rotor"], "", more, [stiffness, damping]);
+        let mut study = study(&text, case["Omega"].as_f64());
+        if case["bearings"] != "isotropic" {
+            let kxx = names(&study).iter().position(|name| name == "kxx").expect("declared");
+            study = study.design(eigentol::DesignVariable::new(kxx), 3.503e7);
+        }
+        let all = study.forced_sensitivities().expect("a response");
+        let exact = |values: &Value| -> Vec<Complex> {
+            let pairs = values.as_array().expect("a list").iter().map(numbers);
+            pairs.map(|pair| Complex::new(pair[0], pair[1])).collect()
+        };
+        let most = |all: &[Complex]| all.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        let amplitudes = exact(&case["XY"]);
+        for (k, expected) in amplitudes.iter().enumerate() {
+            let found = all.response.harmonics[0].outputs[k].expect("an amplitude");
+            assert!((found - expected).norm() < 1e-8 * most(&amplitudes), "{k}: {found} {expected}");
+            let slopes = all.complex(0, Output::new(k), Measure::Displacement).expect("derivatives");
+            for (name, found) in names(&study).iter().zip(&slopes.by_design) {
+                let key = match name.as_str() {
+                    "kxx" => "bearing_kxx",
+                    "cyy" => "bearing_cyy",
+                    other => other,
+                };
+                let first = exact(&case["derivatives"][key]["first"]);
+                let error = (found - first[k]).norm();
+                assert!(error < 1e-8 * most(&first), "{} {k} {name}: {found} {}", case["Omega"], first[k]);
+            }
+        }
+    }
+}
+
+/// Three shafts that twist, five inertias and a gear, free at both ends.
+#[test]
+fn a_torsional_train() {
+    let file = truth(include_str!("../../../truth/flexible/F15_torsional_train.json"));
+    let mut parameters = Vec::new();
+    let mut shafts = String::new();
+    for k in 1..4 {
+        parameters.extend([(format!("L{k}"), "m"), (format!("GJ{k}"), "N*m^2"), (format!("rhoJ{k}"), "kg*m")]);
+        write!(
+            shafts,
+            "body shaft{k}: shaft(along: x, up: z, lines: torsion, length: L{k}, torsion_stiffness: GJ{k}, inertia: rhoJ{k} / 2);"
+        )
+        .expect("text");
+    }
+    parameters.extend((1..6).map(|k| (format!("J{k}"), "kg*m^2")));
+    let parameters: Vec<(&str, &str)> = parameters.iter().map(|(name, unit)| (name.as_str(), *unit)).collect();
+    let wheels = [("shaft1 at root", 1), ("shaft1 at tip", 2), ("shaft2 at tip", 3), ("shaft3 at root", 4), ("shaft3 at tip", 5)];
+    let mut wheel = String::new();
+    for (place, k) in wheels {
+        write!(
+            wheel,
+            "body wheel{k}: rigid(mass: 1 kg, inertia: [J{k}, 10 kg*m^2, 10 kg*m^2]);
+            joint weld{k}: fixed from {place} to wheel{k};"
+        )
+        .expect("text");
+    }
+    // Points of equal wheels move together, those of a gear along the line of contact.
+    let text = format!(
+        "mechanism Train {{
+            {} design ratio = {};
+            {shafts} {wheel}
+            point rim1: wheel2 at [0, 0.1 m, 0]; point rim2: collar at [0, 0.1 m, 0];
+            body collar: massless; joint holds: fixed from shaft2 to collar;
+            constraint joined: equation(zero: position(rim1).z - position(rim2).z);
+            point rim3: wheel3 at [0, 0.1 m * ratio, 0]; point rim4: wheel4 at [0, 0.1 m, 0];
+            constraint gear: equation(zero: position(rim3).z - position(rim4).z);
+        }}",
+        design(&file, &parameters),
+        parameter(&file, "ratio")
+    );
+    let study = study(&text, None);
+    let (modes, sensitivities) = (study.modes().expect("modes"), study.sensitivities().expect("derivatives"));
+    for (k, expected) in numbers(&file["frequencies"]).into_iter().enumerate() {
+        let near = |mode: &eigentol::Mode| (mode.s.im / expected - 1.0).abs() < 1e-8;
+        let mode = modes.modes.iter().position(near).unwrap_or_else(|| panic!("no mode near {expected}"));
+        let slopes = sensitivities.modes[mode].s().expect("derivatives");
+        for (name, slope) in names(&study).iter().zip(&slopes.by_design) {
+            let Some(first) = file["derivatives"][name.as_str()].get("first") else { continue };
+            let expected = numbers(first)[k];
+            assert!((slope.im / expected - 1.0).abs() < 1e-8, "{k} {name}: {slope} {expected}");
+        }
+    }
+}
