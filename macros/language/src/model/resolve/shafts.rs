@@ -207,7 +207,8 @@ impl Resolver<'_> {
                     self.require_of_beam(name, &argument.replace('_', " "), number, dimension, value);
                 }),
                 None if needed => {
-                    let message = format!("`shaft` needs `sections`, or `{argument}` and other numbers of its only one");
+                    let message =
+                        format!("`shaft` needs `sections`, or `{argument}` and other numbers of its only one");
                     let help = "write `sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]], material: steel`";
                     self.diagnostics.error_with_help(word, message, help);
                     return None;

@@ -142,7 +142,8 @@ impl Resolver<'_> {
         };
         if let Some(line) = declared.bending {
             let of = |own: &Section| {
-                let [bending, shear, mass, rotary] = [&own.bending, &own.shear, &own.mass, &own.rotary].map(Clone::clone);
+                let [bending, shear, mass, rotary] =
+                    [&own.bending, &own.shear, &own.mass, &own.rotary].map(Clone::clone);
                 [bending, shear, mass, rotary, drag.clone()]
             };
             lines.push((line, &[(0, 1.0), (3, 1.0), (1, 1.0), (2, -1.0)], numbers(&of)));
