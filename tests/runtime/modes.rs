@@ -26,6 +26,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     resolved_modes: None,
     correlations: eigentol::Shared::Static(&[]),
     rings: eigentol::Shared::Static(&[]),
+    spans: eigentol::Shared::Static(&[]),
     harmonics: eigentol::Shared::Static(&[]),
     damping: DampingKind::Zero,
     kernels: Shared::Static(&[]),

@@ -219,6 +219,25 @@ impl Assembly {
         all
     }
 
+    /// Twice the amplitude of the kinetic energy over the square of the frequency, of each span in each direction of a motion:
+    /// in `y + i z` and in `y - i z`, of a bar alone. SI.
+    #[must_use]
+    pub fn inertia(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        let of_span = |(span, motion): (&Span, &Vec<Along>)| -> Vec<f64> {
+            let each = span.directions().iter().zip(motion).map(|(&direction, along)| {
+                let sections = span.pieces().zip(along.elements());
+                let of_element = |(section, own): (usize, &[Complex])| {
+                    let mirrored: Vec<Complex> = own.iter().map(Complex::conj).collect();
+                    let inertia = span.coefficients(section, direction).map(|[_, _, c]| c);
+                    product(&inertia, &forms(self.classes_of(span.line), &mirrored, own)).re
+                };
+                sections.map(of_element).sum()
+            });
+            each.collect()
+        };
+        self.spans.iter().zip(&motion.spans).map(of_span).collect()
+    }
+
     fn each_form(&self, left: &Motion, right: &Motion, mut visit: impl FnMut(&Span, usize, f64, &[Complex; TERMS])) {
         for (span, (left, right)) in self.spans.iter().zip(left.spans.iter().zip(&right.spans)) {
             for (&direction, (left, right)) in span.directions().iter().zip(left.iter().zip(right)) {

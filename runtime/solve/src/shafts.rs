@@ -175,6 +175,34 @@ impl Shafts {
         Some(modes)
     }
 
+    /// Adds what spins of the shafts to the sums of the kernel `whirl` of a vibration.
+    pub(crate) fn add_to_whirl(&self, of: &Description, s: Complex, shape: &[Complex], sums: &mut [f64; 7]) {
+        let inertia = self.spans.inertia(&self.spans.condensed(s).motion(shape));
+        let [moment, lateral, torsional, axial, eccentric, moving, still] = sums;
+        let before = *moving;
+        for (span, own) in self.spans.spans().iter().zip(inertia) {
+            let (speed, square) = (span.speed, span.speed * span.speed);
+            let all = match own[..] {
+                [with, against] => {
+                    *moment += 0.25 * speed * speed.abs() * (with - against);
+                    *lateral += 0.25 * square * (with + against);
+                    0.25 * (with + against)
+                }
+                _ => {
+                    let place = span.ends.iter().find_map(|end| end[0]).map_or(0, |(index, _)| index);
+                    let along = of.coordinates.get(place).is_some_and(|info| *info.unit.symbol == *"m");
+                    *(if along { &mut *axial } else { &mut *torsional }) += 0.5 * square * own[0];
+                    0.5 * own[0]
+                }
+            };
+            *(if speed == 0.0 { &mut *still } else { &mut *moving }) += all;
+        }
+        // Shafts stand on their axes.
+        if *moving > 0.0 {
+            *eccentric *= (before / *moving).powi(2);
+        }
+    }
+
     /// The modes next to others; `None` if two of them became one.
     fn followed(&self, nearby: &[Mode]) -> Option<Vec<eigentol_shafts::Mode>> {
         if nearby.is_empty() {

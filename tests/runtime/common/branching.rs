@@ -37,6 +37,7 @@ macro_rules! law {
                     resolved_modes: None,
                     correlations: eigentol::Shared::Static(&[]),
                     rings: eigentol::Shared::Static(&[]),
+                    spans: eigentol::Shared::Static(&[]),
                     harmonics: eigentol::Shared::Static(&[]),
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),

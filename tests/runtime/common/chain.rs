@@ -54,6 +54,7 @@ macro_rules! chain {
                     resolved_modes: None,
                     correlations: eigentol::Shared::Static(&[]),
                     rings: eigentol::Shared::Static(&[]),
+                    spans: eigentol::Shared::Static(&[]),
                     harmonics: eigentol::Shared::Static(&[]),
                     damping: DampingKind::Zero,
                     kernels: Shared::Static(&[]),

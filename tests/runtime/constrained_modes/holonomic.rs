@@ -32,6 +32,7 @@ const fn described(
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        spans: eigentol::Shared::Static(&[]),
         harmonics: eigentol::Shared::Static(&[]),
         damping,
         kernels: Shared::Static(&[]),

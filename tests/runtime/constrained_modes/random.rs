@@ -50,6 +50,7 @@ impl Sizes {
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
             rings: eigentol::Shared::Static(&[]),
+            spans: eigentol::Shared::Static(&[]),
             harmonics: eigentol::Shared::Static(&[]),
             damping: DampingKind::General,
             kernels: Shared::Static(&[]),

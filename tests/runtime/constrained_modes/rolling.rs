@@ -38,6 +38,7 @@ const fn described(
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        spans: eigentol::Shared::Static(&[]),
         harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),

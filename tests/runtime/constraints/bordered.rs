@@ -90,6 +90,7 @@ pub(crate) const fn described(
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        spans: eigentol::Shared::Static(&[]),
         harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::Zero,
         kernels: Shared::Static(&[]),

@@ -51,6 +51,7 @@ impl Model for Gears {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        spans: eigentol::Shared::Static(&[]),
         harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),

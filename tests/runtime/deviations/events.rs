@@ -144,6 +144,7 @@ impl Model for Fed {
         resolved_modes: None,
         correlations: eigentol::Shared::Static(&[]),
         rings: eigentol::Shared::Static(&[]),
+        spans: eigentol::Shared::Static(&[]),
         harmonics: eigentol::Shared::Static(&[]),
         damping: DampingKind::General,
         kernels: Shared::Static(&[]),

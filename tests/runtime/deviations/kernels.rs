@@ -439,6 +439,7 @@ mod declared {
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
             rings: eigentol::Shared::Static(&[]),
+            spans: eigentol::Shared::Static(&[]),
             harmonics: eigentol::Shared::Static(&[]),
             damping: DampingKind::Zero,
             kernels: Shared::Static(&[]),

@@ -38,6 +38,7 @@ macro_rules! described {
             resolved_modes: None,
             correlations: eigentol::Shared::Static(&[]),
             rings: eigentol::Shared::Static(&[]),
+            spans: eigentol::Shared::Static(&[]),
             harmonics: eigentol::Shared::Static(&[]),
             damping: eigentol::DampingKind::General,
             kernels: Shared::Static(&[]),

@@ -2,3 +2,4 @@
 //! against differences.
 
 mod exact;
+mod random;

@@ -9,6 +9,7 @@ use eigentol_results::{Answer, Findings, Subject, displayed};
 
 use super::blades::{BladePattern, pattern, ring_speeds};
 use crate::kernels::Kernels;
+use crate::shafts::Shafts;
 use crate::{Equilibrium, Mode, Modes};
 
 /// Direction in which a vibration circles about the axes of the spinning bodies.
@@ -269,11 +270,16 @@ pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Whirl
         let mass = mechanism.linear(&at.coordinates, &at.inputs, &at.design).mass;
         (ring_speeds(mechanism, at), mass)
     });
+    let shafts = Shafts::of(at).ok().flatten();
     let whirl = |mode: &Mode| {
         let frequency = mode.frequency()?;
         let real = mode.shape.map(|value| value.re);
         let imaginary = mode.shape.map(|value| value.im);
-        let of_shafts = Whirl::new(mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary));
+        let mut sums = mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary);
+        if let Some(shafts) = &shafts {
+            shafts.add_to_whirl(&description, mode.s, &mode.shape, &mut sums);
+        }
+        let of_shafts = Whirl::new(sums);
         let Some((speeds, mass)) = &rings else { return of_shafts };
         Whirl::with_blades(of_shafts, pattern(&description, speeds, mass, (&mode.shape, frequency)))
     };

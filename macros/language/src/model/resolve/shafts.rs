@@ -132,9 +132,27 @@ impl Resolver<'_> {
             Some(value) => self.scalar_of(value, Expected::ratio(), "`shear_coefficient`").map(Some),
             None => Some(None),
         };
-        let sections = match given.get("sections") {
-            Some(value) => material.zip(coefficient).and_then(|whole| self.sections_of_shaft(name, value, &whole)),
-            None => self.section_by_numbers(name, &shaft.shape.word, given, bends, lines),
+        const NUMBERS: [&str; 7] = [
+            "length",
+            "mass_per_length",
+            "inertia",
+            "stiffness",
+            "shear_stiffness",
+            "torsion_stiffness",
+            "axial_stiffness",
+        ];
+        let number = NUMBERS.into_iter().find_map(|number| Some((number, given.get(number)?)));
+        let sections = match (given.get("sections"), number) {
+            (Some(_), Some((number, value))) => {
+                let message = format!("a shaft takes `sections` or `{number}`, not both");
+                let help = "numbers are those of a shaft of one section";
+                self.diagnostics.error_with_help(value.extent, message, help);
+                None
+            }
+            (Some(value), None) => {
+                material.zip(coefficient).and_then(|whole| self.sections_of_shaft(name, value, &whole))
+            }
+            (None, _) => self.section_by_numbers(name, &shaft.shape.word, given, bends, lines),
         };
         let (bends, [bending, twists, stretches]) = (bends?, lines?);
         let (axes, sections) = (axes?, sections?);
@@ -277,6 +295,12 @@ impl Resolver<'_> {
         let mut rest = entries.iter().peekable();
         while let Some(entry) = rest.next() {
             let material = self.material_named_by(entry);
+            if let (None, ValueKind::Name(named)) = (&material, &entry.kind)
+                && self.scope.find_or_unclear(&named.to_string()).is_none()
+            {
+                self.unknown_material(named);
+                return None;
+            }
             if material.is_none() {
                 sizes.push(entry);
                 if rest.peek().is_some() {

@@ -115,6 +115,12 @@ impl Resolver<'_> {
         if let Some((_, material)) = self.materials.iter().find(|(name, _)| *name == text) {
             return material.clone();
         }
+        self.unknown_material(wanted);
+        None
+    }
+
+    pub(in crate::model::resolve) fn unknown_material(&mut self, wanted: &Ident) {
+        let text = wanted.to_string();
         let known = self.materials.iter().map(|(name, _)| name.as_str());
         let help = match nearest(&text, known) {
             Some(near) => format!("did you mean `{near}`?"),
@@ -122,6 +128,5 @@ impl Resolver<'_> {
         };
         let message = format!("unknown material `{text}`");
         self.diagnostics.error_with_help(wanted, message, help);
-        None
     }
 }

@@ -21,6 +21,7 @@ static ANY: Shared<Description> = Shared::Static(&Description {
     resolved_modes: None,
     correlations: Shared::Static(&[]),
     rings: Shared::Static(&[]),
+    spans: Shared::Static(&[]),
     harmonics: Shared::Static(&[]),
     damping: DampingKind::General,
     kernels: Shared::Static(&[]),

@@ -1,0 +1,193 @@
+//! Shafts of random steps: against the same with each section in eight, against `beam`s, and derivatives against
+//! differences.
+
+use std::fmt::Write;
+
+use eigentol::{Complex, DesignVariable, Input, Study};
+use eigentol_interpreter::Interpreted;
+
+use crate::beams::compared::machine;
+
+/// Numbers without a pattern, always the same.
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A rotor of eight random sections with a disk in the middle, two bearings and an unbalance; each section is written as so
+/// many rows.
+fn rotor(seed: u64, split: usize) -> String {
+    let mut random = Random(seed);
+    let (mut rows, mut before) = (String::new(), [0.0; 9]);
+    let mut lengths = [0.0; 8];
+    for (k, length) in lengths.iter_mut().enumerate() {
+        *length = random.between(40.0, 120.0);
+        let (outer, share) = (random.between(30.0, 60.0), random.between(0.0, 0.6));
+        before[k + 1] = before[k] + *length;
+        let outer = if k == 3 { "outer".to_owned() } else { format!("{outer} mm") };
+        for _ in 0..split {
+            let layer = if k == 5 { ", steel, 70 mm, 60 mm, brass" } else { "" };
+            let row = if k == 5 { "60 mm, 20 mm".to_owned() } else { format!("{outer}, {} mm", 30.0 * share) };
+            let length = if k == 2 { "length".to_owned() } else { format!("{length} mm") };
+            write!(rows, "[{length} / {split}, {row}{layer}], ").expect("text");
+        }
+    }
+    let station = |section: usize| split * section;
+    let mut bearings = String::new();
+    for k in [1, 7] {
+        let [y, z] = [0; 2].map(|_| random.between(20.0, 60.0));
+        let [c, cross] = [0; 2].map(|_| random.between(0.5, 3.0));
+        write!(
+            bearings,
+            "point journal{k}: rotor at station {}; point seat{k}: ground at [{}, 0, 0];
+            force film{k}: bushing(from: seat{k}, to: journal{k},
+                stiffness: [[0, 0, 0], [0, {y} MN/m, {cross} MN/m], [0, -{cross} MN/m, {z} MN/m]],
+                damping: [0, {c}e3, {c}e3] N*s/m);",
+            station(k),
+            if k == 1 { format!("{} mm", before[1]) } else { format!("{} mm + length", before[7] - lengths[2]) },
+        )
+        .expect("text");
+    }
+    format!(
+        "mechanism Rotor {{
+            input omega: rad/s;
+            design outer = 45 mm; design length = {} mm; design modulus = 205 GPa; design density = 7800 kg/m^3;
+            design lag = 4 us; design drag = 20 N*s/m^2; design mass = 12 kg;
+            material steel: density density, modulus modulus, poisson 0.3;
+            material brass: density 8500 kg/m^3, modulus 100 GPa, poisson 0.34;
+            gravity 9.81 m/s^2 along -z;
+            body rotor: shaft(along: x, up: z, material: steel, lag: lag, drag: drag, lines: [bending, torsion, stretch],
+                sections: [{rows}]) spinning at omega;
+            body disk: disk(mass: mass, radius: 120 mm, axis: x);
+            joint turns: revolute(x) from rotor at station {} to disk, driven at omega;
+            {bearings}
+            point end_of_it: rotor at tip; point behind: ground at [{} mm + length, 0, 0];
+            force coupling: bushing(from: behind, to: end_of_it, stiffness: [3, 0, 0] MN/m, damping: [200, 0, 0] N*s/m,
+                turning_stiffness: [5e3, 0, 0] N*m/rad, turning_damping: [3, 0, 0] N*m*s/rad);
+            unbalance heavy: on disk, amount: 100 g*mm, angle: 20 deg;
+            point hub: rotor at station {};
+            output y = position(hub).y; output z = position(hub).z; output x = position(end_of_it).x;
+        }}",
+        lengths[2],
+        station(4),
+        before[8] - lengths[2],
+        station(4)
+    )
+}
+
+fn study(seed: u64, split: usize) -> Study<Interpreted> {
+    Study::new(machine(&rotor(seed, split))).input(Input::new(0), 300.0)
+}
+
+#[test]
+fn sections_may_be_divided() {
+    for seed in 1..7 {
+        let (whole, split) = (study(seed, 1), study(seed, 8));
+        let [a, b] = [&whole, &split].map(|study| study.modes().expect("modes"));
+        for (a, b) in a.modes.iter().zip(&b.modes).take(8) {
+            assert!((a.s - b.s).norm() < 2e-8 * b.s.norm(), "{seed}: {} {}", a.s, b.s);
+        }
+        let [a, b] = [&whole, &split].map(|study| study.forced_response().expect("a response"));
+        for (a, b) in a.harmonics[0].outputs.iter().zip(&b.harmonics[0].outputs) {
+            let (a, b) = (a.expect("an amplitude"), b.expect("an amplitude"));
+            assert!((a - b).norm() <= 1e-8 * b.norm(), "{seed}: {a} {b}");
+        }
+        let [a, b] = [&whole, &split].map(|study| study.outputs().expect("outputs").values);
+        for (a, b) in a.iter().zip(b.iter()) {
+            assert!((a - b).abs() <= 1e-9 * b.abs().max(1e-6), "{seed}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    for seed in 1..4 {
+        let study = study(seed, 1);
+        let modes = study.modes().expect("modes");
+        let (sensitivities, forced) =
+            (study.sensitivities().expect("derivatives"), study.forced_sensitivities().expect("derivatives"));
+        let outputs = study.outputs().expect("derivatives");
+        let variables: Vec<f64> = study.description().design.iter().map(|variable| variable.nominal).collect();
+        for (k, nominal) in variables.iter().enumerate() {
+            let step = 3e-3 * nominal;
+            let moved = |steps: f64| study.clone().design(DesignVariable::new(k), nominal + steps * step);
+            let around = [-2.0, -1.0, 1.0, 2.0].map(moved);
+            let slope = |of: &dyn Fn(&Study<Interpreted>) -> Complex| {
+                let [a, b, c, d] = around.each_ref().map(of);
+                (a - d + 8.0 * (c - b)) / (12.0 * step)
+            };
+            for (mode, sensitivity) in modes.modes.iter().zip(&sensitivities.modes).take(6) {
+                let nearest = |study: &Study<Interpreted>| {
+                    let modes = study.modes().expect("modes").modes;
+                    let apart = |own: &eigentol::Mode| (own.s - mode.s).norm();
+                    modes.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes").s
+                };
+                let (found, expected) = (sensitivity.s().expect("derivatives").by_design[k], slope(&nearest));
+                let error = (found - expected).norm() * nominal.abs();
+                assert!(error < 1e-8 * mode.s.norm(), "{seed} {k} {}: {found} {expected}", mode.s);
+            }
+            for output in 0..2 {
+                let amplitude = |study: &Study<Interpreted>| {
+                    study.forced_response().expect("a response").harmonics[0].outputs[output].expect("one")
+                };
+                let found = forced.harmonics[0].outputs[output].as_ref().expect("derivatives").by_design[k];
+                let expected = slope(&amplitude);
+                let error = (found - expected).norm() * nominal.abs();
+                assert!(error < 1e-7 * amplitude(&study).norm(), "{seed} {k} output {output}: {found} {expected}");
+            }
+            let value = |study: &Study<Interpreted>| Complex::from(study.outputs().expect("outputs").values[1]);
+            let (found, expected) = (outputs.by_design[1].as_ref().expect("derivatives")[k], slope(&value).re);
+            assert!(
+                (found - expected).abs() * nominal.abs() < 1e-8 * value(&study).norm(),
+                "{seed} {k}: {found} {expected}"
+            );
+        }
+    }
+}
+
+/// A uniform shaft whose root is held is a beam that spins, with a disk and a bearing at its tip; gravity is so weak that the beam
+/// stays straight.
+#[test]
+fn a_beam_is_the_same() {
+    let common = "input omega: rad/s; gravity 9.81e-4 m/s^2 along -z;
+        material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+        body disk: disk(mass: 3 kg, radius: 80 mm, axis: x); joint turns: revolute(x) from rotor at tip to disk, driven at omega;
+        point seat: ground at [500 mm, 0, 0]; point journal: rotor at tip;
+        force film: bushing(from: seat, to: journal, stiffness: [0, 3e5, 5e5] N/m, damping: [0, 200, 100] N*s/m);
+        unbalance heavy: on disk, amount: 10 g*mm, angle: 0 deg;
+        output y = position(journal).y; output z = position(journal).z;";
+    let shaft = format!(
+        "mechanism Shaft {{ {common}
+            body rotor: shaft(along: x, up: z, material: steel, sections: [[500 mm, 30 mm]]) spinning at omega;
+            point root: rotor at root; body arm: massless; joint weld: fixed from rotor to arm; point ahead: arm at [1 m, 0, 0];
+            constraint held_y: equation(zero: position(root).y); constraint held_z: equation(zero: position(root).z);
+            constraint turn_y: equation(zero: position(ahead).z); constraint turn_z: equation(zero: position(ahead).y); }}"
+    );
+    let beam = format!(
+        "mechanism Beam {{ {common}
+            body rotor: beam(length: 500 mm, along: x, up: z, material: steel, section: circle(radius: 15 mm),
+                bending: 12, shear: 12, torsion: 0) spinning at omega;
+            joint clamp: fixed from ground to rotor; }}"
+    );
+    let [a, b] = [shaft, beam].map(|text| Study::new(machine(&text)).input(Input::new(0), 400.0));
+    let [of_shaft, of_beam] = [&a, &b].map(|study| study.modes().expect("modes"));
+    let lateral = of_shaft.modes.iter().filter(|mode| mode.s.im > 0.0).take(6);
+    for mode in lateral {
+        let near = |other: &eigentol::Mode| (other.s - mode.s).norm() < 1e-7 * mode.s.norm();
+        let all: Vec<_> = of_beam.modes.iter().map(|mode| mode.s).take(8).collect();
+        assert!(of_beam.modes.iter().any(near), "{} {all:?}", mode.s);
+    }
+    let [of_shaft, of_beam] = [&a, &b].map(|study| study.forced_response().expect("a response"));
+    for (a, b) in of_shaft.harmonics[0].outputs.iter().zip(&of_beam.harmonics[0].outputs) {
+        let (a, b) = (a.expect("an amplitude"), b.expect("an amplitude"));
+        assert!((a - b).norm() < 1e-6 * b.norm(), "{a} {b}");
+    }
+    let [of_shaft, of_beam] = [&a, &b].map(|study| study.outputs().expect("outputs"));
+    for (a, b) in of_shaft.values.iter().zip(&of_beam.values) {
+        assert!((a - b).abs() < 1e-7 * b.abs().max(1e-12), "{a} {b}");
+    }
+}
