@@ -11,8 +11,8 @@ use crate::equilibrium::{
 use crate::error::NotFound;
 use crate::free::{FreeDirections, Held};
 use crate::kernels::{DirectionalKernels, Linear};
+use crate::modes::judge_shafts;
 use crate::rounding;
-use crate::shafts;
 use crate::{Description, Equilibrium, Error, Shared, Watch};
 
 /// A mechanism with one varying input.
@@ -268,7 +268,7 @@ impl<'a> Curve<'a> {
         state.residual = residual;
         state.relative_residual = relative;
         state.iterations = iterations;
-        if let Some((stability, modes)) = shafts::judge(self.mechanism, &mut state, &[], true) {
+        if let Some((stability, modes)) = judge_shafts(self.mechanism, &mut state, &[], true) {
             state.stability = stability;
             return Ok(SolvedState { state, modes });
         }

@@ -11,8 +11,8 @@ use crate::constraints::{Structure, all_rows, placed};
 use crate::error::NotFound;
 use crate::free::FreeDirections;
 use crate::kernels::Linear;
+use crate::modes::judge_shafts;
 use crate::rounding::CheckedState;
-use crate::shafts;
 use crate::{DampingKind, Equilibrium, Mode, Stability};
 
 /// A finished state.
@@ -75,7 +75,7 @@ pub(crate) fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Resu
     }
     if !state.description.spans.is_empty()
         && let Some((stability, modes)) =
-            shafts::judge(point.mechanism, state, point.nearby, point.needed != Needed::State)
+            judge_shafts(point.mechanism, state, point.nearby, point.needed != Needed::State)
     {
         state.stability = stability;
         return Ok(modes);

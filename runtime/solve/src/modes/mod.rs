@@ -20,6 +20,7 @@ mod mode;
 mod normalisation;
 mod pencil;
 mod principal;
+mod shafts;
 mod undamped;
 mod whirl;
 
@@ -35,11 +36,12 @@ pub(crate) use deflation::deflated;
 #[doc(hidden)]
 pub use kinetic::inertia;
 pub use mode::{Behaviour, Mode};
-pub(crate) use normalisation::normalise_by_mass;
 #[doc(hidden)]
 pub use normalisation::{Normalisation, lead};
 #[doc(hidden)]
 pub use pencil::{pencil_slope_times, pencil_times, transposed};
+#[doc(hidden)]
+pub use shafts::judge_shafts;
 #[doc(hidden)]
 pub use undamped::undamped;
 pub use whirl::{Character, Kind, Sense, Whirl, Whirls, whirls};
@@ -470,7 +472,7 @@ fn solve_general(
         } else if s.im > 0.0 && keeps_amplitude && conservative {
             s.re = 0.0;
         }
-        let mut behaviour = behaviour(s, error, zero);
+        let mut behaviour = Behaviour::of_general(s, error, zero);
         if zero && free_left > 0 {
             free_left -= 1;
             behaviour = Behaviour::Free;
@@ -495,19 +497,6 @@ fn solve_general(
     principal::keep_principal(linear, description, modes)?;
     sort_by_frequency(modes);
     Ok(())
-}
-
-/// What a general mode does, whose eigenvalue is known up to an error.
-pub(crate) fn behaviour(s: Complex, error: f64, zero: bool) -> Behaviour {
-    let keeps_amplitude = sign(s.re, error) == Sign::Zero;
-    match (zero, s.im > 0.0, s.re > 0.0) {
-        (true, ..) => Behaviour::Neutral,
-        (_, true, _) if keeps_amplitude => Behaviour::Oscillating(s.im),
-        (_, true, false) => Behaviour::Damped(s.im),
-        (_, true, true) => Behaviour::Flutter(s.im),
-        (_, false, false) => Behaviour::Decaying(-s.re),
-        (_, false, true) => Behaviour::Divergent(s.re),
-    }
 }
 
 /// Puts modes that ascend in `|s|` in ascending order of their frequencies; those without one come first, as undamped

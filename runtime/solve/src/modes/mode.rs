@@ -43,6 +43,19 @@ pub enum Behaviour {
 const BESIDE: f64 = 1.5;
 
 impl Behaviour {
+    /// What a general mode does, whose eigenvalue is known up to an error.
+    pub(crate) fn of_general(s: Complex, error: f64, zero: bool) -> Self {
+        let keeps_amplitude = sign(s.re, error) == Sign::Zero;
+        match (zero, s.im > 0.0, s.re > 0.0) {
+            (true, ..) => Self::Neutral,
+            (_, true, _) if keeps_amplitude => Self::Oscillating(s.im),
+            (_, true, false) => Self::Damped(s.im),
+            (_, true, true) => Self::Flutter(s.im),
+            (_, false, false) => Self::Decaying(-s.re),
+            (_, false, true) => Self::Divergent(s.re),
+        }
+    }
+
     /// Whether a small disturbance grows.
     #[must_use]
     pub fn grows(self) -> bool {

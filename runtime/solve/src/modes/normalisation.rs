@@ -44,7 +44,7 @@ impl Normalisation {
 }
 
 /// Normalises a vector of an open mechanism: `x^H Mhat x = 1`, its largest component real and positive.
-pub(crate) fn normalise_by_mass(x: &mut [Complex], mass: &Matrix) -> bool {
+pub(super) fn normalise_by_mass(x: &mut [Complex], mass: &Matrix) -> bool {
     let all = x.len();
     normalise(x, mass, Normalisation::Mass, all)
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use eigentol::forced::Measure;
+use eigentol::modes::Sense;
 use eigentol::{Complex, Input, Output, Study};
 use eigentol_interpreter::Interpreted;
 use serde_json::Value;
@@ -43,6 +44,9 @@ fn a_spinning_shaft() {
             if speed == 0.0 {
                 continue;
             }
+            let sense = study.whirls().expect("kinds")[mode].expect("a shaft").sense();
+            let with = if *omega > 0.0 { Sense::Forward } else { Sense::Backward };
+            assert_eq!(sense, Some(with), "{speed} {omega}");
             let slopes = sensitivities.modes[mode].s().expect("derivatives");
             let first = |name: &str| numbers(&case["derivatives"][name]["first"])[k] * omega.signum();
             for (name, slope) in names(&study).iter().zip(&slopes.by_design) {

@@ -1,10 +1,12 @@
 //! Shafts: a table of sections, each with its length, its diameters and its material.
 
 mod at_rest;
+pub(super) mod declared;
 mod stations;
 
 use proc_macro2::Ident;
 
+use self::declared::{Declared, Section};
 use super::arguments::Arguments;
 use super::beams::table::{Kind, Properties, Table};
 use super::bodies::{Row, SHAFT};
@@ -12,7 +14,7 @@ use super::expected::Expected;
 use super::placements::zero;
 use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
-use crate::model::expression::{Expr, Vector};
+use crate::model::expression::Expr;
 use crate::model::mechanism::Line;
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify::{add, divide, multiply};
@@ -23,46 +25,8 @@ const ELEMENTS: usize = 24;
 /// Most elements of a whole shaft.
 const MOST: usize = 4096;
 
-/// A shaft as declared; its stations are known once everything has been resolved.
-#[derive(Clone, Debug)]
-pub(in crate::model::resolve) struct Declared {
-    origin: Vector,
-    axes: [Vector; 3],
-    speed: Expr,
-    lag: Expr,
-    drag: Expr,
-    sections: Vec<Section>,
-    /// What bends, and whether it twists and stretches.
-    bending: Option<Line>,
-    twists: bool,
-    stretches: bool,
-    elements: usize,
-    positive: Vec<(String, Expr)>,
-}
-
 /// A material, and the share of the area that carries shear if it is given.
 type Whole = (Properties, Option<Expr>);
-
-/// A row of the table: numbers of all its layers together.
-#[derive(Clone, Debug)]
-struct Section {
-    length: Expr,
-    outer: Expr,
-    mass: Expr,
-    rotary: Expr,
-    polar: Expr,
-    bending: Expr,
-    shear: Expr,
-    twist: Expr,
-    stretch: Expr,
-}
-
-impl Declared {
-    /// How many sections it has: the number of its last station.
-    pub(in crate::model::resolve) fn last(&self) -> usize {
-        self.sections.len()
-    }
-}
 
 impl Resolver<'_> {
     /// A shaft stands alone: no other shape can be added to it.

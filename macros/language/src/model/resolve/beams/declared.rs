@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::super::shafts;
+use super::super::shafts::declared::Declared as Shaft;
 use super::table::Table;
 use crate::base::legendre::Gauss;
 use crate::model::expression::{Expr, Vector};
@@ -62,7 +62,7 @@ impl Declared {
 #[derive(Clone, Debug)]
 pub(super) enum Flexible {
     Beam(Option<Declared>),
-    Shaft(Option<shafts::Declared>),
+    Shaft(Option<Shaft>),
 }
 
 /// The beams and shafts of a declaration and the stations used so far. Each has a station at its tip.
@@ -79,14 +79,14 @@ impl Stations {
         self.bodies.push((name.clone(), Flexible::Beam(beam)));
     }
 
-    pub(in crate::model::resolve) fn declare_shaft(&mut self, name: &Ident, shaft: Option<shafts::Declared>) {
-        let last = shaft.as_ref().map_or(1, shafts::Declared::last);
+    pub(in crate::model::resolve) fn declare_shaft(&mut self, name: &Ident, shaft: Option<Shaft>) {
+        let last = shaft.as_ref().map_or(1, Shaft::last);
         self.used.push((self.bodies.len(), last as f64));
         self.bodies.push((name.clone(), Flexible::Shaft(shaft)));
     }
 
     /// The shafts that are right, with their numbers and names.
-    pub(in crate::model::resolve) fn shafts(&self) -> impl Iterator<Item = (usize, &Ident, &shafts::Declared)> {
+    pub(in crate::model::resolve) fn shafts(&self) -> impl Iterator<Item = (usize, &Ident, &Shaft)> {
         self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
             Flexible::Shaft(Some(shaft)) => Some((k, name, shaft)),
             _ => None,

@@ -5,12 +5,13 @@ use proc_macro2::Ident;
 use super::super::coordinates;
 use super::super::placements::unplaced;
 use super::super::resolver::Resolver;
+use super::super::shafts::declared::Declared as Shaft;
 use super::declared::{Declared, Flexible};
 use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
 use crate::base::names::joined;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Beam, Body, Coordinate, CoordinateQuantity, Force, Frame, Joint, Motion, Point, Shaft, Station,
+    self, Beam, Body, Coordinate, CoordinateQuantity, Force, Frame, Joint, Motion, Point, Station,
 };
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
@@ -38,7 +39,7 @@ impl Resolver<'_> {
     pub(in crate::model::resolve) fn station(&mut self, frame: &Ident, value: &Value) -> Option<Option<Frame>> {
         let beam = self.stations.bodies.iter().position(|(name, _)| name == frame);
         let shaft = beam.and_then(|beam| match &self.stations.bodies[beam].1 {
-            Flexible::Shaft(shaft) => Some(shaft.as_ref().map(super::super::shafts::Declared::last)),
+            Flexible::Shaft(shaft) => Some(shaft.as_ref().map(Shaft::last)),
             Flexible::Beam(_) => None,
         });
         if let Some(last) = shaft {
@@ -144,7 +145,7 @@ impl Resolver<'_> {
         points: &[Point],
         forces: &mut Vec<Force>,
         gravity: &Vector,
-    ) -> (Vec<Beam>, Vec<Shaft>) {
+    ) -> (Vec<Beam>, Vec<mechanism::Shaft>) {
         let stations = std::mem::take(&mut self.stations);
         let first = First {
             body: self.items_that(|kind| matches!(kind, ItemKind::Body(_))),

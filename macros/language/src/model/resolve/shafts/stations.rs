@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use super::super::beams::declared::Stations;
 use super::super::placements::unplaced;
 use super::super::resolver::Resolver;
-use super::{Declared, Section};
+use super::declared::{Declared, Section};
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::base::names::joined;
 use crate::model::expression::{Expr, Vector};
