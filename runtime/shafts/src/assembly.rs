@@ -15,6 +15,10 @@ use crate::span::{Span, check};
 #[derive(Clone, Debug)]
 pub struct Assembly {
     spans: Vec<Span>,
+    /// Which of its different sections each section of a span is.
+    kinds: Vec<Vec<usize>>,
+    /// Of the different sections of each span in each direction.
+    coefficients: Vec<Vec<Vec<Coefficients>>>,
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
@@ -58,7 +62,14 @@ impl Assembly {
         for (index, span) in spans.iter().enumerate() {
             check(index, span, count)?;
         }
-        Ok(Self { spans, mass, damping, stiffness, degree })
+        let (mut kinds, mut coefficients) = (Vec::new(), Vec::new());
+        for span in &spans {
+            let (own, different) = span.kinds();
+            let of = |direction: f64| different.iter().map(|&k| span.coefficients(k, direction)).collect();
+            coefficients.push(span.directions().iter().map(|&direction| of(direction)).collect());
+            kinds.push(own);
+        }
+        Ok(Self { spans, kinds, coefficients, mass, damping, stiffness, degree })
     }
 
     /// The number of unknowns of the stations.
@@ -77,14 +88,20 @@ impl Assembly {
         classes(line, self.degree)
     }
 
-    fn chain(&self, span: &Span, direction: f64, s: Complex) -> Chain {
-        let classes = self.classes_of(span.line);
-        let element = |section: usize| {
-            let k = at(&span.coefficients(section, direction), s);
-            Element::new(classes, span.shape(section), &k)
+    /// Which of the different sections of a span each element is.
+    fn pieces(&self, span: usize) -> impl Iterator<Item = usize> + '_ {
+        self.spans[span].pieces().map(move |section| self.kinds[span][section])
+    }
+
+    fn chain(&self, span: usize, direction: usize, s: Complex) -> Chain {
+        let own = &self.spans[span];
+        let classes = self.classes_of(own.line);
+        let element = |(kind, coefficients): (usize, &Coefficients)| {
+            let section = self.kinds[span].iter().position(|other| *other == kind).unwrap_or_default();
+            Element::new(classes, own.shape(section), &at(coefficients, s))
         };
-        let elements = (0..span.sections.len()).map(element).collect();
-        Chain::new(elements, span.pieces().collect(), span.components())
+        let elements = self.coefficients[span][direction].iter().enumerate().map(element).collect();
+        Chain::new(elements, self.pieces(span).collect(), own.components())
     }
 
     /// No motion.
@@ -109,8 +126,11 @@ impl Assembly {
     /// The assembly at one `s`, not factored: a cost that grows linearly with the sections.
     #[must_use]
     pub fn condensed(&self, s: Complex) -> Condensed<'_> {
-        let of_span = |span: &Span| span.directions().iter().map(|&direction| self.chain(span, direction, s)).collect();
-        Condensed { assembly: self, s, chains: self.spans.iter().map(of_span).collect() }
+        let of_span = |(k, span): (usize, &Span)| {
+            let directions = 0..span.directions().len();
+            directions.map(|direction| self.chain(k, direction, s)).collect()
+        };
+        Condensed { assembly: self, s, chains: self.spans.iter().enumerate().map(of_span).collect() }
     }
 
     /// The loads that a motion asks for: each coefficient times what `of` makes of it, and the matrices of the stations
@@ -130,15 +150,13 @@ impl Assembly {
             let at = |j: usize| if side == Side::Right { entry(i, j) } else { entry(j, i) };
             (0..n).map(|j| at(j) * x.stations[j]).sum()
         });
-        let spans = self.spans.iter().zip(&x.spans).map(|(span, x)| {
-            let directions = span.directions().iter().zip(x);
-            let each = directions.map(|(&direction, x)| {
+        let spans = self.spans.iter().zip(&x.spans).enumerate().map(|(index, (span, x))| {
+            let each = x.iter().zip(&self.coefficients[index]).map(|(x, coefficients)| {
                 let classes = self.classes_of(span.line);
-                let k: Vec<[Complex; TERMS]> =
-                    (0..span.sections.len()).map(|section| of(&span.coefficients(section, direction))).collect();
+                let k: Vec<[Complex; TERMS]> = coefficients.iter().map(&of).collect();
                 let mut on = Along::zeros(x.nodes.len() - 1, x.size);
-                for ((section, x), on) in span.pieces().zip(x.elements()).zip(on.inner.chunks_exact_mut(x.size)) {
-                    loads(classes, &k[section], x, on);
+                for ((kind, x), on) in self.pieces(index).zip(x.elements()).zip(on.inner.chunks_exact_mut(x.size)) {
+                    loads(classes, &k[kind], x, on);
                 }
                 on
             });

@@ -38,6 +38,21 @@ impl Span {
         self.sections.iter().enumerate().flat_map(|(k, (_, pieces))| std::iter::repeat_n(k, *pieces))
     }
 
+    /// Which of its different elements each section has, and a section of each.
+    pub(crate) fn kinds(&self) -> (Vec<usize>, Vec<usize>) {
+        let mut different: Vec<usize> = Vec::new();
+        let kind = |k: usize| {
+            let element = self.element(k);
+            let known = different.iter().position(|&other| self.element(other) == element);
+            known.unwrap_or_else(|| {
+                different.push(k);
+                different.len() - 1
+            })
+        };
+        let own = (0..self.sections.len()).map(kind).collect();
+        (own, different)
+    }
+
     /// A section as one of its elements.
     pub(crate) fn element(&self, section: usize) -> Section {
         let (mut own, pieces) = self.sections[section];
