@@ -37,7 +37,7 @@ pub struct Condensed<'a> {
 /// An assembly at one `s`, factored.
 #[derive(Clone, Debug)]
 pub struct At<'a> {
-    condensed: Condensed<'a>,
+    pub(crate) condensed: Condensed<'a>,
     /// 1/s.
     pub s: Complex,
     factors: Lu<Complex>,
@@ -84,24 +84,39 @@ impl Assembly {
         &self.spans
     }
 
-    fn classes_of(&self, line: Line) -> &'static [Class; 2] {
+    pub(crate) fn classes_of(&self, line: Line) -> &'static [Class; 2] {
         classes(line, self.degree)
     }
 
     /// Which of the different sections of a span each element is.
-    fn pieces(&self, span: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn pieces(&self, span: usize) -> impl Iterator<Item = usize> + '_ {
         self.spans[span].pieces().map(move |section| self.kinds[span][section])
     }
 
     fn chain(&self, span: usize, direction: usize, s: Complex) -> Chain {
         let own = &self.spans[span];
         let classes = self.classes_of(own.line);
-        let element = |(kind, coefficients): (usize, &Coefficients)| {
-            let section = self.kinds[span].iter().position(|other| *other == kind).unwrap_or_default();
+        let element = |(section, coefficients): (usize, &Coefficients)| {
             Element::new(classes, own.shape(section), &at(coefficients, s))
         };
-        let elements = self.coefficients[span][direction].iter().enumerate().map(element).collect();
+        let elements = self.different(span, direction).map(element).collect();
         Chain::new(elements, self.pieces(span).collect(), own.components())
+    }
+
+    /// `s^2 M + s C + K` and its derivative: what is at the stations.
+    pub(crate) fn of_stations(&self, s: Complex) -> [Matrix<Complex>; 2] {
+        let n = self.stations();
+        let (k, c, m) = (&self.stiffness, &self.damping, &self.mass);
+        [
+            Matrix::from_fn(n, n, |i, j| Complex::from(k[i][j]) + s * (c[i][j] + s * m[i][j])),
+            Matrix::from_fn(n, n, |i, j| Complex::from(c[i][j]) + s * (2.0 * m[i][j])),
+        ]
+    }
+
+    /// Coefficients of the different sections of a span in a direction, each with one of these sections.
+    pub(crate) fn different(&self, span: usize, direction: usize) -> impl Iterator<Item = (usize, &Coefficients)> {
+        let section = move |kind: usize| self.kinds[span].iter().position(|other| *other == kind).unwrap_or_default();
+        self.coefficients[span][direction].iter().enumerate().map(move |(kind, own)| (section(kind), own))
     }
 
     /// No motion.
@@ -178,21 +193,6 @@ impl Assembly {
         sum
     }
 
-    /// `left^T P'(s) right`.
-    #[must_use]
-    pub fn normaliser(&self, left: &Motion, right: &Motion, s: Complex) -> Complex {
-        let n = self.stations();
-        let mut sum: Complex = (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| left.stations[i] * (2.0 * s * self.mass[i][j] + self.damping[i][j]) * right.stations[j])
-            .sum();
-        self.each_form(left, right, |span, section, direction, forms| {
-            let slopes = slope_at(&span.coefficients(section, direction), s);
-            sum += product(&slopes, forms);
-        });
-        sum
-    }
-
     /// Derivatives of `left^T P(s) right` by the numbers of each section of each span, in the order of [`Number::ALL`],
     /// and by the speed of each span. With the opposite sign, they are those of what [`At::adjoint`] weighs in a response.
     #[must_use]
@@ -208,17 +208,22 @@ impl Assembly {
         for (index, span) in self.spans.iter().enumerate() {
             let own = &mut all[index];
             let sides = left.spans[index].iter().zip(&right.spans[index]);
-            for (&direction, (left, right)) in span.directions().iter().zip(sides) {
+            for (d, (&direction, (left, right))) in span.directions().iter().zip(sides).enumerate() {
                 let classes = self.classes_of(span.line);
-                for (section, (left, right)) in span.pieces().zip(left.elements().zip(right.elements())) {
+                let turned = direction * span.speed;
+                // By the speed, then by each number, of each different section.
+                let of_kind = |(section, _): (usize, &Coefficients)| {
                     let element = span.element(section);
+                    let by_speed = at(&element.by_speed(span.line), s).map(|slope| slope * direction);
+                    (by_speed, Number::ALL.map(|number| at(&element.slopes(span.line, turned, number), s)))
+                };
+                let slopes: Vec<_> = self.different(index, d).map(of_kind).collect();
+                for (section, (left, right)) in span.pieces().zip(left.elements().zip(right.elements())) {
                     let forms = forms(classes, left, right);
-                    let turned = direction * span.speed;
-                    own.speed += product(&at(&element.by_speed(span.line), s), &forms) * direction;
-                    for (to, number) in own.sections[section].iter_mut().zip(Number::ALL) {
-                        let slopes = at(&element.slopes(span.line, turned, number), s);
-                        let share = if number == Number::Length { 1.0 / span.sections[section].1 as f64 } else { 1.0 };
-                        *to += product(&slopes, &forms) * share;
+                    let (by_speed, by_number) = &slopes[self.kinds[index][section]];
+                    own.speed += product(by_speed, &forms);
+                    for (to, slopes) in own.sections[section].iter_mut().zip(by_number) {
+                        *to += product(slopes, &forms);
                     }
                     if span.line == Line::Slender {
                         // The slopes at the nodes, times half the length, are unknowns of the element.
@@ -229,9 +234,13 @@ impl Assembly {
                             [1, classes[0].size + 1].iter().map(|&place| on[place] * b[place]).sum()
                         };
                         let by_slope = at_slope(left, right) + at_slope(right, left);
-                        own.sections[section][0] += by_slope / span.sections[section].0.length;
+                        own.sections[section][0] += by_slope / span.element(section).length;
                     }
                 }
+            }
+            // Elements share the length of their section.
+            for (own, (_, pieces)) in own.sections.iter_mut().zip(&span.sections) {
+                own[Number::Length as usize] /= *pieces as f64;
             }
         }
         all
@@ -255,16 +264,6 @@ impl Assembly {
         };
         self.spans.iter().zip(&motion.spans).map(of_span).collect()
     }
-
-    fn each_form(&self, left: &Motion, right: &Motion, mut visit: impl FnMut(&Span, usize, f64, &[Complex; TERMS])) {
-        for (span, (left, right)) in self.spans.iter().zip(left.spans.iter().zip(&right.spans)) {
-            for (&direction, (left, right)) in span.directions().iter().zip(left.iter().zip(right)) {
-                for (section, (left, right)) in span.pieces().zip(left.elements().zip(right.elements())) {
-                    visit(span, section, direction, &forms(self.classes_of(span.line), left, right));
-                }
-            }
-        }
-    }
 }
 
 /// Derivatives by what describes a span.
@@ -284,34 +283,11 @@ impl<'a> Condensed<'a> {
     /// `T(s)`.
     #[must_use]
     pub fn matrix(&self) -> Matrix<Complex> {
-        let (own, s, n) = (self.assembly, self.s, self.assembly.stations());
-        let mut matrix = Matrix::from_fn(n, n, |i, j| {
-            let constant = Complex::new(own.stiffness[i][j], 0.0);
-            constant + s * (own.damping[i][j] + s * own.mass[i][j])
-        });
+        let own = self.assembly;
+        let [mut matrix, _] = own.of_stations(self.s);
         for (span, chains) in own.spans.iter().zip(&self.chains) {
-            let c = span.components();
             for (direction, chain) in span.directions().iter().zip(chains) {
-                // planes `y y`, `y z`, `z y`, `z z` of each entry
-                let (half, turned) = (0.5, Complex::new(0.0, 0.5 * direction));
-                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
-                        let entry = chain.ends[p][q][a][b];
-                        let mut put = |row: usize, column: usize, value: Complex| {
-                            if let (Some((i, left)), Some((j, right))) = (span.ends[p][row], span.ends[q][column]) {
-                                matrix[i][j] += value * (left * right);
-                            }
-                        };
-                        if c == 1 {
-                            put(a, b, entry);
-                            continue;
-                        }
-                        put(a, b, entry * half);
-                        put(a, b + 2, entry * turned);
-                        put(a + 2, b, -entry * turned);
-                        put(a + 2, b + 2, entry * half);
-                    }
-                }
+                span.add_blocks(*direction, &chain.ends, &mut matrix);
             }
         }
         matrix

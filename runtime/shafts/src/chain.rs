@@ -2,7 +2,8 @@
 
 use eigentol_numerics::Complex;
 
-use crate::element::{Block, Element, Node, turned};
+use crate::element::{Block, Element, Ends, Node, turned};
+use crate::number::Number;
 
 /// A series of elements at one `s`, with all but its two end nodes eliminated.
 #[derive(Clone, Debug)]
@@ -12,14 +13,14 @@ pub(crate) struct Chain {
     pieces: Vec<usize>,
     inner: Vec<Eliminated>,
     /// Between the end nodes.
-    pub(crate) ends: [[Block; 2]; 2],
+    pub(crate) ends: Ends,
 }
 
 /// An eliminated node: the inverse of its own block, and its block with the first node.
 #[derive(Clone, Debug)]
-struct Eliminated {
-    inverse: Block,
-    with_first: Block,
+pub(crate) struct Eliminated<T = Complex> {
+    inverse: Block<T>,
+    with_first: Block<T>,
 }
 
 /// The motion of a series of elements, or loads on it.
@@ -48,16 +49,9 @@ impl Chain {
         let mut ends = elements[pieces[0]].blocks;
         let mut inner = Vec::with_capacity(pieces.len() - 1);
         for &piece in &pieces[1..] {
-            let [[first, across], [_, second]] = &elements[piece].blocks;
-            let [[start, with_first], [_, last]] = ends;
-            let inverse = inverse(&plus(&last, first), components);
-            let through = times(&with_first, &inverse);
-            let onward = times(&inverse, across);
-            let start = minus(&start, &times(&through, &transposed(&with_first)));
-            let with_end = negative(&times(&with_first, &onward));
-            let end = minus(second, &times(&transposed(across), &onward));
-            ends = [[start, with_end], [transposed(&with_end), end]];
-            inner.push(Eliminated { inverse, with_first });
+            let (next, node) = joined(ends, &elements[piece].blocks, components);
+            ends = next;
+            inner.push(node);
         }
         Self { elements, pieces, inner, ends }
     }
@@ -107,34 +101,65 @@ impl Chain {
     }
 }
 
+/// A series with one more element, whose first node is eliminated.
 #[inline(always)]
-fn map(f: impl Fn(usize, usize) -> Complex) -> Block {
+pub(crate) fn joined<T: Number>(
+    [[start, with_first], [_, last]]: Ends<T>,
+    [[first, across], [_, second]]: &Ends<T>,
+    components: usize,
+) -> (Ends<T>, Eliminated<T>) {
+    let inverse = inverse(&plus(&last, first), components);
+    let through = times(&with_first, &inverse);
+    let onward = times(&inverse, across);
+    let start = minus(&start, &times(&through, &transposed(&with_first)));
+    let with_end = negative(&times(&with_first, &onward));
+    let end = minus(second, &times(&transposed(across), &onward));
+    ([[start, with_end], [transposed(&with_end), end]], Eliminated { inverse, with_first })
+}
+
+#[inline(always)]
+fn map<T: Number>(f: impl Fn(usize, usize) -> T) -> Block<T> {
     [[f(0, 0), f(0, 1)], [f(1, 0), f(1, 1)]]
 }
 
 #[inline(always)]
-fn plus(a: &Block, b: &Block) -> Block {
-    map(|i, j| a[i][j] + b[i][j])
+fn plus<T: Number>(a: &Block<T>, b: &Block<T>) -> Block<T> {
+    map(
+        #[inline(always)]
+        |i, j| a[i][j] + b[i][j],
+    )
 }
 
 #[inline(always)]
-fn minus(a: &Block, b: &Block) -> Block {
-    map(|i, j| a[i][j] - b[i][j])
+fn minus<T: Number>(a: &Block<T>, b: &Block<T>) -> Block<T> {
+    map(
+        #[inline(always)]
+        |i, j| a[i][j] - b[i][j],
+    )
 }
 
 #[inline(always)]
-fn negative(a: &Block) -> Block {
-    map(|i, j| -a[i][j])
+fn negative<T: Number>(a: &Block<T>) -> Block<T> {
+    map(
+        #[inline(always)]
+        |i, j| -a[i][j],
+    )
 }
 
 #[inline(always)]
-fn transposed(a: &Block) -> Block {
-    map(|i, j| a[j][i])
+fn transposed<T: Number>(a: &Block<T>) -> Block<T> {
+    map(
+        #[inline(always)]
+        |i, j| a[j][i],
+    )
 }
 
 #[inline(always)]
-fn times(a: &Block, b: &Block) -> Block {
-    map(|i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j])
+fn times<T: Number>(a: &Block<T>, b: &Block<T>) -> Block<T> {
+    map(
+        #[inline(always)]
+        |i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j],
+    )
 }
 
 #[inline(always)]
@@ -154,10 +179,10 @@ fn subtract(a: Node, b: Node) -> Node {
 
 /// Of one or two components.
 #[inline(always)]
-fn inverse(a: &Block, components: usize) -> Block {
+fn inverse<T: Number>(a: &Block<T>, components: usize) -> Block<T> {
     if components == 1 {
-        return [[a[0][0].inv(), Complex::ZERO], [Complex::ZERO; 2]];
+        return [[a[0][0].inverse(), T::zero()], [T::zero(); 2]];
     }
-    let scale = (a[0][0] * a[1][1] - a[0][1] * a[1][0]).inv();
-    [[a[1][1] * scale, -a[0][1] * scale], [-a[1][0] * scale, a[0][0] * scale]]
+    let scale = (a[0][0] * a[1][1] - a[0][1] * a[1][0]).inverse();
+    [[a[1][1] * scale, -(a[0][1] * scale)], [-(a[1][0] * scale), a[0][0] * scale]]
 }

@@ -3,10 +3,13 @@
 use eigentol_numerics::Complex;
 
 use crate::basis::{Class, MOST, SIGNS};
+use crate::number::Number;
 use crate::section::TERMS;
 
 /// A block between two nodes.
-pub(crate) type Block = [[Complex; 2]; 2];
+pub(crate) type Block<T = Complex> = [[T; 2]; 2];
+/// The blocks between two ends.
+pub(crate) type Ends<T = Complex> = [[Block<T>; 2]; 2];
 /// The unknowns of a node: deflection and slope, or one of a bar.
 pub(crate) type Node = [Complex; 2];
 
@@ -27,7 +30,7 @@ pub(crate) struct Shape {
 #[derive(Clone, Debug)]
 pub(crate) struct Element {
     /// Between the two nodes.
-    pub(crate) blocks: [[Block; 2]; 2],
+    pub(crate) blocks: Ends,
     /// Class by class for each inner unknown `p`: the inverse of its pivot, then the share of each unknown before it in
     /// `x_p = r_p / pivot_p - sum_j<p share_pj x_j`.
     factors: Vec<Complex>,
@@ -50,23 +53,8 @@ impl Shape {
 
 impl Element {
     pub(crate) fn new(classes: &[Class; 2], shape: Shape, k: &[Complex; TERMS]) -> Self {
-        let c = shape.components;
-        let mut blocks = [[[[Complex::ZERO; 2]; 2]; 2]; 2];
         let mut factors = Vec::with_capacity(32);
-        for (number, class) in classes.iter().enumerate() {
-            let nodal = eliminated(class, c, k, &mut factors);
-            for a in 0..c {
-                for b in 0..c {
-                    let value = nodal[a][b] * (shape.half(a) * shape.half(b));
-                    let (first, second) = (&SIGNS[number][a], &SIGNS[number][b]);
-                    for p in 0..2 {
-                        for q in 0..2 {
-                            blocks[p][q][a][b] += value * (first[p] * second[q]);
-                        }
-                    }
-                }
-            }
-        }
+        let blocks = blocks(classes, shape, k, Some(&mut factors));
         Self { blocks, factors, sizes: [classes[0].size, classes[1].size], shape }
     }
 
@@ -137,54 +125,75 @@ pub(crate) fn turned(phase: Complex, by: Complex) -> Complex {
     phase * by / by.norm()
 }
 
-/// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric. Returns the block of the nodal ones.
-fn eliminated(class: &Class, components: usize, k: &[Complex; TERMS], factors: &mut Vec<Complex>) -> Block {
-    let n = class.size;
-    if n <= SMALL {
-        within::<SMALL>(class, components, k, factors)
-    } else {
-        within::<SIZE>(class, components, k, factors)
-    }
-}
-
-/// The same with room for so many unknowns.
+/// The blocks between the nodes of an element whose inner unknowns are eliminated, class by class. `keep` gets the factors of
+/// each class.
 #[inline(always)]
-fn within<const ROOM: usize>(
-    class: &Class,
-    components: usize,
-    k: &[Complex; TERMS],
-    factors: &mut Vec<Complex>,
-) -> Block {
-    let n = class.size;
-    let mut all = [[Complex::ZERO; ROOM]; ROOM];
-    for &(i, j, term, value) in &class.entries {
-        all[i][j] += k[term] * value;
-    }
-    let start = factors.len();
-    let count: usize = (components..n).map(|p| p + 1).sum();
-    factors.resize(start + count, Complex::ZERO);
-    let mut end = start + count;
-    for p in (components..n).rev() {
-        let (above, row) = all.split_at_mut(p);
-        let row = &row[0];
-        let inverse = row[p].inv();
-        let own = &mut factors[end - p - 1..end];
-        own[0] = inverse;
-        for (j, to) in own[1..].iter_mut().enumerate() {
-            *to = row[j] * inverse;
-        }
-        for (i, target) in above.iter_mut().enumerate() {
-            let share = own[1 + i];
-            if share != Complex::ZERO {
-                for (to, from) in target[..=i].iter_mut().zip(row) {
-                    *to -= share * from;
+pub(crate) fn blocks<T: Number>(
+    classes: &[Class; 2],
+    shape: Shape,
+    k: &[T; TERMS],
+    mut keep: Option<&mut Vec<T>>,
+) -> Ends<T> {
+    let c = shape.components;
+    let mut blocks = [[[[T::zero(); 2]; 2]; 2]; 2];
+    for (number, class) in classes.iter().enumerate() {
+        let nodal = if class.size <= SMALL {
+            eliminated::<T, SMALL>(class, c, k, keep.as_deref_mut())
+        } else {
+            eliminated::<T, SIZE>(class, c, k, keep.as_deref_mut())
+        };
+        for a in 0..c {
+            for b in 0..c {
+                let value = nodal[a][b].times(shape.half(a) * shape.half(b));
+                let (first, second) = (&SIGNS[number][a], &SIGNS[number][b]);
+                for p in 0..2 {
+                    for q in 0..2 {
+                        blocks[p][q][a][b] += value.times(first[p] * second[q]);
+                    }
                 }
             }
         }
-        end -= p + 1;
     }
-    let mixed = if components == 2 { all[1][0] } else { Complex::ZERO };
-    [[all[0][0], mixed], [mixed, if components == 2 { all[1][1] } else { Complex::ZERO }]]
+    blocks
+}
+
+/// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric and has room. Returns the block of the
+/// nodal ones; `keep` gets for each inner unknown `p`, the first first, the inverse of its pivot and the share of each before it.
+#[inline(always)]
+fn eliminated<T: Number, const ROOM: usize>(
+    class: &Class,
+    components: usize,
+    k: &[T; TERMS],
+    keep: Option<&mut Vec<T>>,
+) -> Block<T> {
+    let n = class.size;
+    let mut all = [[T::zero(); ROOM]; ROOM];
+    for &(i, j, term, value) in &class.entries {
+        all[i][j] += k[term].times(value);
+    }
+    // The inverse of the pivot of `p` and the shares of those before it, in row `p`.
+    let mut rows = [[T::zero(); ROOM]; ROOM];
+    for p in (components..n).rev() {
+        let inverse = all[p][p].inverse();
+        rows[p][0] = inverse;
+        for j in 0..p {
+            rows[p][j + 1] = all[p][j] * inverse;
+        }
+        let (above, row) = all.split_at_mut(p);
+        for (i, target) in above.iter_mut().enumerate() {
+            let share = rows[p][i + 1];
+            for (to, from) in target[..=i].iter_mut().zip(&row[0]) {
+                *to -= share * *from;
+            }
+        }
+    }
+    if let Some(keep) = keep {
+        for p in components..n {
+            keep.extend_from_slice(&rows[p][..=p]);
+        }
+    }
+    let mixed = if components == 2 { all[1][0] } else { T::zero() };
+    [[all[0][0], mixed], [mixed, if components == 2 { all[1][1] } else { T::zero() }]]
 }
 
 /// `left^T Q x` for each constant matrix.

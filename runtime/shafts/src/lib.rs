@@ -7,6 +7,8 @@ mod element;
 mod error;
 mod modes;
 mod motion;
+mod number;
+mod pencil;
 mod section;
 mod span;
 
@@ -15,5 +17,6 @@ pub use eigentol_numerics::{Complex, Matrix};
 pub use error::Error;
 pub use modes::Mode;
 pub use motion::Motion;
+pub use pencil::Pencil;
 pub use section::{Line, Number, Section};
 pub use span::{Place, Span};

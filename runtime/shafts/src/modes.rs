@@ -5,31 +5,34 @@
 //! "Nonlinear Eigenvalue Problems: Newton-type Methods and Nonlinear Rayleigh Functionals", 2008).
 
 use eigentol_numerics::Complex;
-use eigentol_numerics::algebra::{Lu, Matrix, Vector, add_to, dot};
+use eigentol_numerics::algebra::{Lu, Matrix, Vector, add_to, dot, dot_complex};
 use eigentol_numerics::eigenproblem::eigenvalues;
 
 use crate::assembly::{Assembly, At, SpanGradient};
 use crate::error::Error;
 use crate::motion::{Kept, Motion, Side};
+use crate::pencil::Pencil;
 use crate::section::Line;
 
-/// A mode: `P(s) right = 0` and `left^T P(s) = 0`.
-#[derive(Clone, Debug)]
+/// A mode: `T(s) right = 0` and `left^T T(s) = 0`.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// 1/s.
     pub s: Complex,
-    /// Its shape.
-    pub right: Motion,
-    /// The weights of its adjoint.
-    pub left: Motion,
+    /// Its shape at the stations.
+    pub right: Vector<Complex>,
+    /// The weights of its adjoint there.
+    pub left: Vector<Complex>,
 }
 
+/// Steps of inverse iteration before them.
+const TURNS: usize = 8;
 /// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
 const CLOSE: f64 = 1e-9;
 /// A relative step behind which the next, unless it is much smaller, is rounding.
-const STAYS: f64 = 1e-6;
+const STAYS: f64 = 1e-7;
 /// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
 const RIGID: f64 = 1e-4;
 /// Radians by which a determinant may turn in half a step along an edge.
@@ -38,8 +41,8 @@ const TURN: f64 = 0.9;
 const SAME: f64 = 1e-7;
 /// How far beside an eigenvalue another one with the same value is looked for, as a part of it.
 const APART: f64 = 1e-9;
-/// The inverse of what is left without a mode, above which no other has its eigenvalue.
-const ALONE: f64 = 1e3;
+/// What is left of a unit vector without a mode, below which no other has its eigenvalue.
+const ALONE: f64 = 1e-3;
 /// The shift as a part of a typical frequency: rigid motions have none.
 const SHIFT: f64 = 0.1;
 
@@ -50,17 +53,22 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
+        let found = self.krylov(count + 2)?;
+        let near: Vec<Complex> = found.iter().map(|(s, _)| *s).collect();
+        let starts = found.into_iter().zip(self.pencils(&near)).map(|((s, stations), pencil)| {
+            let factors = factored(&pencil).or_else(|| factored(&self.pencils(&[s * (1.0 + 1e-10)]).pop()?))?;
+            Some(turned(&pencil, &factors, s, stations))
+        });
+        let starts: Vec<Mode> = starts.collect::<Option<_>>().ok_or(Error::NotConverged)?;
+        let refined: Vec<Mode> = self.refined(&starts).into_iter().collect::<Option<_>>().ok_or(Error::NotConverged)?;
         let mut modes: Vec<Mode> = Vec::new();
-        for (s, stations) in self.krylov(count + 2)? {
-            let mode = self.turned(&self.beside(s)?, stations)?;
+        for mode in refined {
             // Both of two equal ones are found with the first.
-            if modes.iter().any(|other| other.is_near(&mode)) {
-                continue;
+            if !modes.iter().any(|other| other.is_near(&mode)) {
+                modes.push(mode);
             }
-            let second = self.beside_it(&mode)?;
-            modes.push(mode);
-            modes.extend(second);
         }
+        modes.extend(self.equal(&modes));
         modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
         modes.truncate(count);
         Ok(modes)
@@ -101,38 +109,45 @@ impl Assembly {
         Some(turns.round().max(0.0) as usize)
     }
 
-    /// Another mode with the same eigenvalue, as each of a round rotor at rest has: a Krylov space knows one of them. It is
-    /// what inverse iteration leaves of a motion without the known mode; `None` where that is nothing.
-    fn beside_it(&self, mode: &Mode) -> Result<Option<Mode>, Error> {
-        let s = mode.s * (1.0 + APART);
-        let Some(at) = self.at(s) else { return Ok(None) };
-        let slope = self.slope_loads(&mode.right, s, Side::Right);
-        let slope_left = self.slope_loads(&mode.left, s, Side::Left);
-        let rest = |side: Side, known: &Motion, weights: &Motion| {
+    /// Other modes with the same eigenvalues, as each of a round rotor at rest has: a Krylov space knows one of them. They are
+    /// what inverse iteration leaves of a motion without the known mode, where that is anything.
+    fn equal(&self, modes: &[Mode]) -> Vec<Mode> {
+        let s: Vec<Complex> = modes.iter().map(|mode| mode.s * (1.0 + APART)).collect();
+        let (mut known, mut starts) = (Vec::new(), Vec::new());
+        for ((mode, pencil), s) in modes.iter().zip(self.pencils(&s)).zip(s) {
+            let Some(factors) = factored(&pencil) else { continue };
             let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0, 0.3 * (k % 3) as f64));
-            let mut loads = self.still(Kept::All);
-            loads.stations = ones;
-            let mut motion = at.solve(loads, side);
-            motion.normalise();
-            motion.add(-motion.product(weights) / known.product(weights), known);
-            motion
-        };
-        let (mut right, mut left) = (rest(Side::Right, &mode.right, &slope_left), rest(Side::Left, &mode.left, &slope));
-        // What is left where the eigenvalue is single is smaller by the distance from it as a part of that to the next.
-        if right.normalise() > ALONE || left.normalise() > ALONE {
-            return Ok(None);
+            let below = dot_complex(&mode.left, &times(&pencil.slope, &mode.right));
+            let mut right = factors.solve(&ones);
+            normalised(&mut right);
+            let share = dot_complex(&mode.left, &times(&pencil.slope, &right)) / below;
+            right.iter_mut().zip(&mode.right).for_each(|(x, known)| *x -= share * known);
+            let mut left = factors.solve_transposed(&ones);
+            normalised(&mut left);
+            let share = dot_complex(&left, &times(&pencil.slope, &mode.right)) / below;
+            left.iter_mut().zip(&mode.left).for_each(|(y, known)| *y -= share * known);
+            // What is left where the eigenvalue is single is smaller by the distance from it as a part of that to the next.
+            if normalised(&mut right) < 1.0 / ALONE && normalised(&mut left) < 1.0 / ALONE {
+                known.push(mode);
+                starts.push(Mode { s, right, left });
+            }
         }
         // Once more: beside an eigenvalue already the first step is small.
-        let second = self.near(&self.near(&Mode { s, right, left })?)?;
-        Ok(Some(second).filter(|second| second.is_near(mode) && !second.is_same(mode)))
+        let once: Vec<(&Mode, Mode)> =
+            known.into_iter().zip(self.refined(&starts)).filter_map(|(known, found)| Some((known, found?))).collect();
+        let starts: Vec<Mode> = once.iter().map(|(_, found)| found.clone()).collect();
+        let again = once.iter().zip(self.refined(&starts));
+        let second = again.filter_map(|((known, _), found)| found.filter(|x| x.is_near(known) && !x.is_same(known)));
+        second.collect()
     }
 
     /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
     /// an entry of the matrices of the stations it is `-left_i right_j` times 1, `s` or `s^2`, over [`Self::normaliser`].
     #[must_use]
     pub fn slopes(&self, mode: &Mode) -> Vec<SpanGradient> {
-        let mut all = self.gradient(&mode.left, &mode.right, mode.s);
-        let factor = -self.normaliser(&mode.left, &mode.right, mode.s).inv();
+        let condensed = self.condensed(mode.s);
+        let mut all = self.gradient(&condensed.weights(&mode.left), &condensed.motion(&mode.right), mode.s);
+        let factor = -self.normaliser(mode).inv();
         for own in &mut all {
             own.speed *= factor;
             own.sections.iter_mut().flatten().for_each(|x| *x *= factor);
@@ -140,39 +155,111 @@ impl Assembly {
         all
     }
 
-    /// A mode from an approximation, for example the mode at a neighbouring speed or design.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`].
-    pub fn near(&self, mode: &Mode) -> Result<Mode, Error> {
-        let Mode { mut s, .. } = *mode;
-        let mut on = self.slope_loads(&mode.right, s, Side::Right);
-        let mut on_left = self.slope_loads(&mode.left, s, Side::Left);
+    /// `left^T T'(s) right`.
+    #[must_use]
+    pub fn normaliser(&self, mode: &Mode) -> Complex {
+        dot_complex(&mode.left, &self.condensed(mode.s).slope_times(&mode.right))
+    }
+
+    /// Modes from approximations, for example those at a neighbouring speed or design, by Newton's method side by side in the
+    /// vectors of the processor; `None` for one that does not converge. The bits of each do not depend on the others.
+    #[must_use]
+    pub fn refined(&self, starts: &[Mode]) -> Vec<Option<Mode>> {
+        let mut running: Vec<(usize, Mode, f64)> =
+            starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), f64::INFINITY)).collect();
+        let mut found = vec![None; starts.len()];
+        for _ in 0..STEPS {
+            if running.is_empty() {
+                break;
+            }
+            let s: Vec<Complex> = running.iter().map(|(_, mode, _)| mode.s).collect();
+            let mut next = Vec::with_capacity(running.len());
+            for ((place, mode, last), pencil) in running.into_iter().zip(self.pencils(&s)) {
+                let Some((mode, step)) = self.step(mode, pencil) else { continue };
+                // What remains is the cube of the last step, or rounding where steps no longer shrink.
+                let stays = step > 0.1 * last && step.max(last) < STAYS;
+                if step < CLOSE || stays {
+                    found[place] = Some(mode);
+                } else {
+                    next.push((place, mode, step));
+                }
+            }
+            running = next;
+        }
+        for (place, found) in found.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+            *found = self.with_all_unknowns(&starts[place]);
+        }
+        found
+    }
+
+    /// The same with all unknowns in place of those of the stations: `T` has poles where spans vibrate between stations that
+    /// stand still, and next to one Newton's method leaves it.
+    fn with_all_unknowns(&self, start: &Mode) -> Option<Mode> {
+        let mut s = start.s;
+        let at = self.beside(s)?;
+        let (mut right, mut left) = (at.condensed.motion(&start.right), at.condensed.weights(&start.left));
+        for _ in 0..2 {
+            right = at.solve(self.slope_loads(&right, s, Side::Right), Side::Right);
+            left = at.solve(self.slope_loads(&left, s, Side::Left), Side::Left);
+            right.normalise();
+            left.normalise();
+        }
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let at = self.beside(s)?;
-            // T(s) right = on, so that on is what is left of the equations.
-            let mut left = at.solve(on_left, Side::Left);
+            // P(s) right = on, so that on is what is left of the equations.
+            let on = self.slope_loads(&right, s, Side::Right);
+            left = at.solve(self.slope_loads(&left, s, Side::Left), Side::Left);
             left.normalise();
             let rest = left.product(&on);
-            let mut right = at.solve(on, Side::Right);
+            right = at.solve(on, Side::Right);
             let size = right.normalise();
-            on = self.slope_loads(&right, at.s, Side::Right);
-            let change = rest * size / left.product(&on);
+            let change = rest * size / left.product(&self.slope_loads(&right, at.s, Side::Right));
             s = at.s - change;
             let step = change.norm() / s.norm();
-            if !step.is_finite() {
-                break;
-            }
-            // What remains is the cube of the last step, or rounding where steps no longer shrink.
-            let stays = step > 0.1 * last && last < STAYS;
+            let stays = step > 0.1 * last && step.max(last) < STAYS;
             last = step;
-            if step < CLOSE || stays {
-                return Ok(Mode { s, right, left });
+            if !step.is_finite() {
+                return None;
             }
-            on_left = self.slope_loads(&left, s, Side::Left);
+            if step < CLOSE || stays {
+                let (mut right, mut left) = (right.stations, left.stations);
+                normalised(&mut right);
+                normalised(&mut left);
+                return Some(Mode { s, right, left });
+            }
         }
-        Err(Error::NotConverged)
+        None
+    }
+
+    /// Factors at `s`, or beside it where there is nothing to solve with.
+    fn beside(&self, s: Complex) -> Option<At<'_>> {
+        self.at(s).or_else(|| self.at(s * (1.0 + 1e-10)))
+    }
+
+    /// A two-sided Newton step, and its size relative to `s`.
+    fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64)> {
+        let Mode { mut s, right, left } = mode;
+        let (pencil, factors) = match factored(&pencil) {
+            Some(factors) => (pencil, factors),
+            None => {
+                s *= 1.0 + 1e-10;
+                let beside = self.pencils(&[s]).pop()?;
+                let factors = factored(&beside)?;
+                (beside, factors)
+            }
+        };
+        // T(s) right = on, so that on is what is left of the equations.
+        let on = times(&pencil.slope, &right);
+        let mut right = factors.solve(&on);
+        let size = normalised(&mut right);
+        let mut left = factors.solve_transposed(&times_transposed(&pencil.slope, &left));
+        normalised(&mut left);
+        let rest = dot_complex(&left, &on) * size;
+        let change = rest / dot_complex(&left, &times(&pencil.slope, &right));
+        s -= change;
+        let step = change.norm() / s.norm();
+        step.is_finite().then_some((Mode { s, right, left }, step))
     }
 
     /// The mode nearest to a value of `s`, as far as the stations move in it.
@@ -180,28 +267,11 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn mode_at(&self, s: Complex) -> Result<Mode, Error> {
-        let at = self.beside(s)?;
+        let pencil = self.pencils(&[s]).pop().ok_or(Error::NotConverged)?;
+        let factors = factored(&pencil).ok_or(Error::NotConverged)?;
         let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0 + 0.1 * k as f64, 0.0));
-        self.turned(&at, at.response(&ones).stations)
-    }
-
-    /// Factors at `s`, or beside it where there is nothing to solve with.
-    fn beside(&self, s: Complex) -> Result<At<'_>, Error> {
-        self.at(s).or_else(|| self.at(s * (1.0 + 1e-10))).ok_or(Error::NotConverged)
-    }
-
-    /// Both vectors by steps that do not move `s`, from an approximation of the motion of the stations.
-    fn turned(&self, at: &At<'_>, stations: Vector<Complex>) -> Result<Mode, Error> {
-        let mut right = at.between(stations);
-        let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0 - 0.1 * k as f64, 0.0));
-        let mut left = at.adjoint(&ones);
-        for _ in 0..2 {
-            right = at.solve(self.slope_loads(&right, at.s, Side::Right), Side::Right);
-            left = at.solve(self.slope_loads(&left, at.s, Side::Left), Side::Left);
-            right.normalise();
-            left.normalise();
-        }
-        self.near(&Mode { s: at.s, right, left })
+        let start = turned(&pencil, &factors, s, factors.solve(&ones));
+        self.refined(&[start]).pop().flatten().ok_or(Error::NotConverged)
     }
 
     /// Eigenvalues near a shift and the motions of the stations, the nearest first. The shift is real, and so are all
@@ -289,12 +359,49 @@ impl Assembly {
     }
 }
 
+fn factored(pencil: &Pencil) -> Option<Lu<Complex>> {
+    Lu::of(pencil.matrix.clone())
+}
+
+/// Both vectors by steps that do not move `s`, which cost little, from an approximation of the motion of the stations.
+fn turned(pencil: &Pencil, factors: &Lu<Complex>, s: Complex, stations: Vector<Complex>) -> Mode {
+    let mut right = stations;
+    let mut left = factors.solve_transposed(&Vector::from_fn(right.len(), |k| Complex::new(1.0 - 0.1 * k as f64, 0.0)));
+    for _ in 0..TURNS {
+        right = factors.solve(&times(&pencil.slope, &right));
+        left = factors.solve_transposed(&times_transposed(&pencil.slope, &left));
+        normalised(&mut right);
+        normalised(&mut left);
+    }
+    Mode { s, right, left }
+}
+
+fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
+    matrix.iter().map(|row: &[Complex]| dot_complex(row, x)).collect()
+}
+
+fn times_transposed(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
+    let mut sum = Vector::zeros(matrix.column_count());
+    for (row, x) in matrix.iter().zip(x) {
+        sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += x * value);
+    }
+    sum
+}
+
+/// Scales to one; returns the factor.
+fn normalised(x: &mut [Complex]) -> f64 {
+    let factor = x.iter().map(Complex::norm_sqr).sum::<f64>().sqrt().recip();
+    x.iter_mut().for_each(|x| *x *= factor);
+    factor
+}
+
 impl Mode {
     /// Whether two modes are one.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
-        let product: Complex = self.right.flat().zip(other.right.flat()).map(|(a, b)| a.conj() * b).sum();
-        self.is_near(other) && product.norm() > 0.999
+        let product: Complex = self.right.iter().zip(&other.right).map(|(a, b)| a.conj() * b).sum();
+        let sizes = [self, other].map(|mode| mode.right.iter().map(Complex::norm_sqr).sum::<f64>().sqrt());
+        self.is_near(other) && product.norm() > 0.999 * sizes[0] * sizes[1]
     }
 
     fn is_near(&self, other: &Self) -> bool {

@@ -1,8 +1,8 @@
 //! A part of a shaft between two stations.
 
-use eigentol_numerics::Complex;
+use eigentol_numerics::{Complex, Matrix};
 
-use crate::element::{Node, Shape};
+use crate::element::{Ends, Node, Shape};
 use crate::error::Error;
 use crate::motion::Side;
 use crate::section::{Coefficients, Line, Number, Section};
@@ -84,6 +84,31 @@ impl Span {
             self.ends.map(|end| [0, 1].map(|k| (value(end[k]) + turn * value(end[k + 2])) * scale))
         });
         directions.collect()
+    }
+
+    /// Adds the blocks between the ends in a direction to a matrix of the stations.
+    pub(crate) fn add_blocks(&self, direction: f64, blocks: &Ends, to: &mut Matrix<Complex>) {
+        let c = self.components();
+        // planes `y y`, `y z`, `z y`, `z z` of each entry
+        let (half, turned) = (0.5, Complex::new(0.0, 0.5 * direction));
+        for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            for (a, b) in (0..c).flat_map(|a| (0..c).map(move |b| (a, b))) {
+                let entry = blocks[p][q][a][b];
+                let mut put = |row: usize, column: usize, value: Complex| {
+                    if let (Some((i, left)), Some((j, right))) = (self.ends[p][row], self.ends[q][column]) {
+                        to[i][j] += value * (left * right);
+                    }
+                };
+                if c == 1 {
+                    put(a, b, entry);
+                    continue;
+                }
+                put(a, b, entry * half);
+                put(a, b + 2, entry * turned);
+                put(a + 2, b, -entry * turned);
+                put(a + 2, b + 2, entry * half);
+            }
+        }
     }
 
     /// Adds the loads on the ends in each direction to those on the stations.

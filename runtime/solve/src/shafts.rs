@@ -13,8 +13,9 @@ use crate::kernels::{Kernels, Second};
 use crate::scalar::Dual;
 use crate::{Complex, Description, Equilibrium, Error, Mode};
 
-/// The degree of the polynomials in each element.
+/// The degree of the polynomials in each element, and where sections do not shear: their deflection alone has both.
 const DEGREE: usize = 4;
+const SLENDER: usize = 7;
 /// The inertia of a slope of a span, as a part of its mass times the square of its length.
 const LUMPED: f64 = 1.0 / 52.5;
 
@@ -89,8 +90,10 @@ impl Shafts {
             return Err(Error::WrongLength { kind: "numbers of shafts", found: numbers.len(), expected });
         }
         let spans: Vec<Span> = at.description.spans.iter().map(|info| span(info, &mut numbers)).collect();
+        let slender = spans.iter().any(|span| span.line == Line::Slender);
+        let degree = if slender { SLENDER } else { DEGREE };
         let zeros = || [(); 3].map(|()| Matrix::zeros(n, n));
-        let alone = Assembly::new(spans.clone(), zeros(), DEGREE).map_err(wrong)?;
+        let alone = Assembly::new(spans.clone(), zeros(), degree).map_err(wrong)?;
         let at_rest = alone.condensed(Complex::ZERO).matrix();
         let at_rest = Matrix::from_fn(n, n, |i, j| at_rest[i][j].re);
         let linear = &at.linear;
@@ -99,7 +102,7 @@ impl Shafts {
             mass[i][i] -= lumped;
         }
         let stiffness = Matrix::from_fn(n, n, |i, j| linear.stiffness[i][j] - at_rest[i][j]);
-        let whole = Assembly::new(spans, [mass, linear.damping.clone(), stiffness], DEGREE).map_err(wrong)?;
+        let whole = Assembly::new(spans, [mass, linear.damping.clone(), stiffness], degree).map_err(wrong)?;
         Ok(Some(Self { whole, spans: alone }))
     }
 

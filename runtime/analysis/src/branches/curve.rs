@@ -1,5 +1,7 @@
 //! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
 
+use core::cell::RefCell;
+
 use super::bordered::Bordered;
 use super::local_scaling::{CurvePosition, Frame, System};
 use super::settings::Continuation;
@@ -11,7 +13,7 @@ use crate::equilibrium::{
 use crate::error::NotFound;
 use crate::free::{FreeDirections, Held};
 use crate::kernels::{DirectionalKernels, Linear};
-use crate::modes::judge_shafts;
+use crate::modes::{Followed, judge_shafts};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Shared, Watch};
 
@@ -31,6 +33,8 @@ pub(crate) struct Curve<'a> {
     pub(crate) watch: Watch<'a>,
     /// Redundant constraints, omitted from Newton's method for regularity; every point must still meet all of them.
     dropped: Vec<bool>,
+    /// With shafts, what the way has shown.
+    followed: RefCell<Followed>,
 }
 
 /// The reason why a point was not reached.
@@ -91,6 +95,7 @@ impl<'a> Curve<'a> {
             structure: Structure::of(&description),
             large: Vector::from_fn(description.coordinates.len(), |i| settings.size * description.large(i)),
             dropped: Vec::new(),
+            followed: RefCell::default(),
             place: FreeDirections::default(),
             description,
             inputs,
@@ -268,7 +273,9 @@ impl<'a> Curve<'a> {
         state.residual = residual;
         state.relative_residual = relative;
         state.iterations = iterations;
-        if let Some((stability, modes)) = judge_shafts(self.mechanism, &mut state, &[], true) {
+        let near = self.followed.borrow().modes().to_vec();
+        if let Some((stability, modes)) = judge_shafts(self.mechanism, &mut state, &near, true) {
+            self.followed.borrow_mut().take(at.p, &modes);
             state.stability = stability;
             return Ok(SolvedState { state, modes });
         }

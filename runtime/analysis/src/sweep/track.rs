@@ -12,7 +12,7 @@ use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
-use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, near_another, position};
+use crate::modes::{CLUSTER_GAP, Family, Followed, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;
 use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
@@ -82,6 +82,8 @@ pub(crate) struct Tracker<'a> {
     /// Whether the input is known to change the equations; else, residual and matrices at the last point, once compared.
     changes: bool,
     unchanged: Option<(RestParts, Linear)>,
+    /// With shafts, what the way has shown.
+    followed: Followed,
     /// The last point with modes.
     pub(crate) last: Option<Box<SweepPoint>>,
     /// A buffer for the next point.
@@ -114,6 +116,7 @@ impl<'a> Tracker<'a> {
             route: Route::default(),
             changes: false,
             unchanged: None,
+            followed: Followed::default(),
             last: None,
             spare: None,
         }
@@ -159,14 +162,20 @@ impl<'a> Tracker<'a> {
     ) -> Result<Vec<Mode>, Error> {
         let inputs = self.inputs_at(value);
         let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
-        let point = point.held_by(&self.held).only(self.needed);
+        let vouched = self.needed == Needed::Verdict && self.followed.vouch(value);
+        let needed = if vouched { Needed::State } else { self.needed };
+        let point = point.held_by(&self.held).only(needed).beside(self.followed.modes());
         point.check_start(from)?;
         state.inputs.clone_from(&inputs);
         let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
         if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state)) {
             return Ok(modes);
         }
-        solve_into(&point, from, policy, state).map_err(|failure| failure.explain(&point.description))
+        let modes = solve_into(&point, from, policy, state).map_err(|failure| failure.explain(&point.description))?;
+        if vouched {
+            state.stability = Stability::Stable;
+        }
+        Ok(modes)
     }
 
     /// An empty state and its modes, to be overwritten.
@@ -342,6 +351,9 @@ impl<'a> Tracker<'a> {
         let (state, point_modes) = point.solved_mut().map_err(|error| error.clone())?;
         let at = (value, self.policy);
         let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
+        if !self.description.spans.is_empty() {
+            self.followed.take(value, &judged);
+        }
         // Without modes to recognise, a state that is not where the path leads may be on another branch.
         let astray = match &predicted {
             Some(predicted) => !confirmed(&state.coordinates, predicted, &self.from),

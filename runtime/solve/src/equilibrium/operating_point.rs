@@ -151,6 +151,16 @@ impl<'a> OperatingPoint<'a> {
         self
     }
 
+    /// This point with the modes of a nearby state of a mechanism with shafts, which has no others.
+    #[doc(hidden)]
+    #[inline]
+    pub fn beside(mut self, modes: &'a [Mode]) -> Self {
+        if !self.description.spans.is_empty() {
+            self.nearby = modes;
+        }
+        self
+    }
+
     /// This point, for no more than what is `needed` of its states.
     #[doc(hidden)]
     #[inline]

@@ -6,6 +6,63 @@ use crate::algebra::{Cholesky, Lu, Matrix, dot_complex};
 use crate::kernels::Kernels;
 use crate::shafts::{Shafts, numbers};
 use crate::{Complex, Description, Equilibrium, Stability};
+use eigentol_shafts::Pencil;
+
+/// After how many states in succession modes are sought anew: others may have become the lowest.
+const FOLLOWED: usize = 8;
+/// Part of the distance to instability, as the last two states have it, for which a state is not judged by itself.
+const SURE: f64 = 0.25;
+/// The most steps between states that are not judged.
+const UNJUDGED: f64 = 16.0;
+
+/// What the states of a mechanism with shafts along an input have shown so far: modes near which the next are sought, and how far
+/// it is to an instability. Empty without shafts.
+#[derive(Clone, Debug, Default)]
+#[doc(hidden)]
+pub struct Followed {
+    modes: Vec<Mode>,
+    states: usize,
+    /// The last value, and the last judged one with the greatest growth there, 1/s.
+    last: f64,
+    judged: Option<(f64, f64)>,
+    sure: f64,
+}
+
+impl Followed {
+    /// The modes of the last state.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    /// Whether a state at this value of the input is stable as those before it were.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn vouch(&self, value: f64) -> bool {
+        self.judged
+            .is_some_and(|(place, _)| (value - place).abs() < self.sure.min(UNJUDGED * (value - self.last).abs()))
+    }
+
+    /// Takes a state with its modes; none if it was not judged.
+    #[doc(hidden)]
+    pub fn take(&mut self, value: f64, modes: &[Mode]) {
+        self.last = value;
+        if modes.is_empty() {
+            return;
+        }
+        let growth = modes.iter().map(|mode| mode.s.re + mode.error).fold(f64::NEG_INFINITY, f64::max);
+        self.sure = match self.judged {
+            Some((place, before)) if growth.max(before) < 0.0 => {
+                SURE * growth.abs() * ((value - place) / (growth - before)).abs()
+            }
+            _ => 0.0,
+        };
+        self.judged = Some((value, growth));
+        self.states += 1;
+        self.modes = if self.states.is_multiple_of(FOLLOWED) { Vec::new() } else { modes.to_vec() };
+    }
+}
 
 /// The number of modes that are sought: those of lowest frequency.
 const MODES: usize = 12;
@@ -16,29 +73,23 @@ impl Shafts {
     /// The modes at a state of these shafts, from those of a nearby one if given: the lowest that oscillate.
     pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode]) -> Option<Vec<Mode>> {
         let found = self.followed(nearby).or_else(|| self.whole.modes(MODES).ok())?;
+        let places: Vec<Complex> = found.iter().map(|own| own.s).collect();
         let mut modes = Vec::new();
-        for own in found {
-            let (mut right, mut left) = (own.right.stations.clone(), own.left.stations.clone());
+        for (own, Pencil { matrix, slope }) in found.into_iter().zip(self.whole.pencils(&places)) {
+            let eigentol_shafts::Mode { s, mut right, mut left } = own;
             let weighs =
                 normalise_by_mass(&mut right, &at.linear.mass) && normalise_by_mass(&mut left, &at.linear.mass);
             if !weighs {
                 return None;
             }
-            let condensed = self.whole.condensed(own.s);
-            let matrix = condensed.matrix();
             let size = |row: &[Complex]| row.iter().zip(&right).map(|(a, x)| a.norm() * x.norm()).sum::<f64>();
             let terms: f64 = left.iter().zip(matrix.iter()).map(|(l, row)| l.norm() * size(row)).sum();
-            let slope = dot_complex(&left, &condensed.slope_times(&right)).norm();
-            let error = ROUNDING * (terms / slope + own.s.norm());
-            let rest: f64 = matrix
-                .iter()
-                .map(|row: &[Complex]| {
-                    let sum: Complex = row.iter().zip(&right).map(|(a, x)| a * x).sum();
-                    sum.norm() / size(row).max(f64::MIN_POSITIVE)
-                })
-                .fold(0.0, f64::max);
-            let behaviour = Behaviour::of_general(own.s, error, false);
-            modes.push(Mode::general(own.s, (right, left), behaviour, rest, error));
+            let slope: Complex = left.iter().zip(slope.iter()).map(|(l, row)| l * dot_complex(row, &right)).sum();
+            let error = ROUNDING * (terms / slope.norm() + s.norm());
+            let rest = |row: &[Complex]| dot_complex(row, &right).norm() / size(row).max(f64::MIN_POSITIVE);
+            let rest = matrix.iter().map(rest).fold(0.0, f64::max);
+            let behaviour = Behaviour::of_general(s, error, false);
+            modes.push(Mode::general(s, (right, left), behaviour, rest, error));
         }
         Some(modes)
     }
@@ -48,12 +99,10 @@ impl Shafts {
         if nearby.is_empty() {
             return None;
         }
-        let near = nearby.iter().map(|mode| {
-            let condensed = self.whole.condensed(mode.s);
-            let (right, left) = (condensed.motion(&mode.shape), condensed.weights(mode.left()));
-            self.whole.near(&eigentol_shafts::Mode { s: mode.s, right, left }).ok()
-        });
-        let found: Vec<eigentol_shafts::Mode> = near.collect::<Option<_>>()?;
+        let start =
+            |mode: &Mode| eigentol_shafts::Mode { s: mode.s, right: mode.shape.clone(), left: mode.left().into() };
+        let starts: Vec<eigentol_shafts::Mode> = nearby.iter().map(start).collect();
+        let found: Vec<eigentol_shafts::Mode> = self.whole.refined(&starts).into_iter().collect::<Option<_>>()?;
         let twice = |k: usize| found[..k].iter().any(|other| other.is_same(&found[k]));
         (!(0..found.len()).any(twice)).then_some(found)
     }

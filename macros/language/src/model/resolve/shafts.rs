@@ -283,7 +283,7 @@ impl Resolver<'_> {
                 }
             };
             sizes.clear();
-            let material = material.map_or_else(|| Some(whole.0.clone()), |material| material)?;
+            let material = material.unwrap_or_else(|| Some(whole.0.clone()))?;
             if let Some(missing) = missing(&material) {
                 let message = format!("section {number} of `{name}` has no {missing}");
                 let help = "write `material: steel` and declare `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";

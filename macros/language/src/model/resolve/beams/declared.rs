@@ -61,8 +61,8 @@ impl Declared {
 /// A body with places along it; `None` if it is wrong.
 #[derive(Clone, Debug)]
 pub(super) enum Flexible {
-    Beam(Option<Declared>),
-    Shaft(Option<Shaft>),
+    Beam(Option<Box<Declared>>),
+    Shaft(Option<Box<Shaft>>),
 }
 
 /// The beams and shafts of a declaration and the stations used so far. Each has a station at its tip.
@@ -76,26 +76,26 @@ pub(in crate::model::resolve) struct Stations {
 impl Stations {
     pub(super) fn declare(&mut self, name: &Ident, beam: Option<Declared>) {
         self.used.push((self.bodies.len(), 1.0));
-        self.bodies.push((name.clone(), Flexible::Beam(beam)));
+        self.bodies.push((name.clone(), Flexible::Beam(beam.map(Box::new))));
     }
 
     pub(in crate::model::resolve) fn declare_shaft(&mut self, name: &Ident, shaft: Option<Shaft>) {
         let last = shaft.as_ref().map_or(1, Shaft::last);
         self.used.push((self.bodies.len(), last as f64));
-        self.bodies.push((name.clone(), Flexible::Shaft(shaft)));
+        self.bodies.push((name.clone(), Flexible::Shaft(shaft.map(Box::new))));
     }
 
     /// The shafts that are right, with their numbers and names.
     pub(in crate::model::resolve) fn shafts(&self) -> impl Iterator<Item = (usize, &Ident, &Shaft)> {
         self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
-            Flexible::Shaft(Some(shaft)) => Some((k, name, shaft)),
+            Flexible::Shaft(Some(shaft)) => Some((k, name, &**shaft)),
             _ => None,
         })
     }
 
-    pub(super) fn beams(&self) -> impl Iterator<Item = (usize, &Ident, &Option<Declared>)> {
+    pub(super) fn beams(&self) -> impl Iterator<Item = (usize, &Ident, Option<&Declared>)> {
         self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
-            Flexible::Beam(beam) => Some((k, name, beam)),
+            Flexible::Beam(beam) => Some((k, name, beam.as_deref())),
             Flexible::Shaft(_) => None,
         })
     }

@@ -39,7 +39,7 @@ impl Resolver<'_> {
     pub(in crate::model::resolve) fn station(&mut self, frame: &Ident, value: &Value) -> Option<Option<Frame>> {
         let beam = self.stations.bodies.iter().position(|(name, _)| name == frame);
         let shaft = beam.and_then(|beam| match &self.stations.bodies[beam].1 {
-            Flexible::Shaft(shaft) => Some(shaft.as_ref().map(Shaft::last)),
+            Flexible::Shaft(shaft) => Some(shaft.as_deref().map(Shaft::last)),
             Flexible::Beam(_) => None,
         });
         if let Some(last) = shaft {
@@ -129,7 +129,7 @@ impl Resolver<'_> {
     /// Whether a beam stretches or shears by coordinates of its own; `None` if it is wrong.
     pub(in crate::model::resolve) fn strains(&self, name: &Ident) -> Option<bool> {
         let (.., beam) = self.stations.beams().find(|(_, x, _)| *x == name)?;
-        Some(beam.as_ref()?.strains != [0; 3])
+        Some(beam?.strains != [0; 3])
     }
 
     fn items_that(&self, is: fn(&ItemKind) -> bool) -> usize {

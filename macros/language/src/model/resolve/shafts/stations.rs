@@ -10,10 +10,16 @@ use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::base::names::joined;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, JointStep, LUMPED, Line, Motion, Placement,
-    Shaft, ShaftStation, Span, StepMotion,
+    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, JointStep, LUMPED, Line, Motion, NUMBERS,
+    Placement, Shaft, ShaftStation, Span, StepMotion,
 };
 use crate::model::simplify::{add, dot, multiply, power_integer};
+
+/// The numbers of a section of a line.
+type Numbers = [Expr; NUMBERS];
+
+/// Which coordinates of a station are the motions of an end, and with which factors.
+type Motions = &'static [(usize, f64)];
 
 /// The names of the coordinates of a station, their axes, and whether they turn. The order is that of their motions.
 const MOTIONS: [(&str, usize, bool); 6] = [
@@ -132,8 +138,8 @@ impl Resolver<'_> {
         let sections = &declared.sections[ends[0].place..ends[1].place];
         let zero = || Expr::Number(0.0);
         let (lag, drag) = (&declared.lag, &declared.drag);
-        let mut lines: Vec<(Line, &[(usize, f64)], Vec<[Expr; 8]>)> = Vec::new();
-        let numbers = |of: &dyn Fn(&Section) -> [Expr; 5]| -> Vec<[Expr; 8]> {
+        let mut lines: Vec<(Line, Motions, Vec<Numbers>)> = Vec::new();
+        let numbers = |of: &dyn Fn(&Section) -> [Expr; 5]| -> Vec<Numbers> {
             let row = |own: &Section| {
                 let [stiffness, shear, mass, rotary, drag] = of(own);
                 [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), zero(), drag]
@@ -163,7 +169,7 @@ impl Resolver<'_> {
         let mut spans = Vec::new();
         for (line, motions, sections) in lines {
             // Each number is computed once for everything that uses it.
-            let sections: Vec<[Expr; 8]> =
+            let sections: Vec<Numbers> =
                 sections.into_iter().map(|row| row.map(|number| self.shared_of_shaft(name, number))).collect();
             let of_end = |end: &ShaftStation| {
                 motions.iter().filter_map(|(k, factor)| Some((end.coordinates[*k]?, *factor))).collect()
