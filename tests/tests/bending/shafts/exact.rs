@@ -131,7 +131,7 @@ fn rotor(rotor: &Value, theory: &str, more: &str, [stiffness, damping]: [[&str; 
             design modulus = {} Pa;
             design kxx = 43.78 MN/m; design cyy = 1752 N*s/m;
             material steel: density {} kg/m^3, modulus modulus, shear_modulus {} Pa;
-            body rotor: shaft(along: x, up: z, material: steel, shear_coefficient: {}, elements: 100, sections: [{rows}]{theory})
+            body rotor: shaft(along: x, up: z, material: steel, shear_coefficient: {}, sections: [{rows}]{theory})
                 spinning at omega;
             body disc: rigid(mass: disc_mass, inertia: [disc_Ip, {Id} kg*m^2, {Id} kg*m^2]);
             joint turns: revolute(x) from rotor at station 4 to disc, driven at omega;

@@ -15,13 +15,19 @@ use super::placements::zero;
 use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
-use crate::model::mechanism::Line;
+use crate::model::mechanism::{self, Line};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify::{add, divide, multiply};
 use crate::syntax::ast::{self, Term, Value, ValueKind};
 
 /// Elements of a whole shaft at least: waves longer than an eighth of it have errors below `1e-8`.
 const ELEMENTS: usize = 24;
+/// Pairs of uniform sections that replace a tapered one, for each e-fold of a diameter; they leave errors of
+/// some `1e-8` in the lowest frequencies.
+const STEPS: f64 = 64.0;
+/// Fewest and most of them.
+const FEWEST: usize = 4;
+const MOST_STEPS: usize = 64;
 /// Most elements of a whole shaft.
 const MOST: usize = 4096;
 
@@ -127,7 +133,7 @@ impl Resolver<'_> {
             speed: speed?,
             lag: lag?,
             drag: drag?,
-            sections,
+            rows: sections,
             bending: bending.then_some(bends),
             twists,
             stretches,
@@ -168,7 +174,7 @@ impl Resolver<'_> {
         given: &Arguments<'_>,
         bends: Option<Line>,
         lines: Option<[bool; 3]>,
-    ) -> Option<Vec<Section>> {
+    ) -> Option<Vec<Vec<Section>>> {
         let [bending, twists, stretches] = lines?;
         let shears = bending && bends == Some(Line::Timoshenko);
         let force = Dimension::FORCE;
@@ -202,10 +208,10 @@ impl Resolver<'_> {
         let [length, mass, rotary, bending, shear, twist, stretch] = <[Expr; 7]>::try_from(numbers).ok()?;
         let polar = multiply(Expr::Number(2.0), rotary.clone());
         let outer = Expr::Number(0.0);
-        Some(vec![Section { length, outer, mass, rotary, polar, bending, shear, twist, stretch }])
+        Some(vec![vec![Section { length, outer, mass, rotary, polar, bending, shear, twist, stretch }]])
     }
 
-    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Section>> {
+    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Vec<Section>>> {
         let rows: Option<Vec<&[Value]>> = match &value.kind {
             ValueKind::Vector(rows, None) if !rows.is_empty() => rows.iter().map(row_of).collect(),
             _ => None,
@@ -222,30 +228,15 @@ impl Resolver<'_> {
             let length = self.size_of_section(name, number, "length", first);
             let layers = self.layers(name, number, layers, first, whole);
             let (length, layers) = (length?, layers?);
-            let outer = layers.last().map_or(Expr::Number(0.0), |(outer, _)| outer.clone());
-            let sum = |of: fn(&crate::model::mechanism::Section) -> &Expr| {
-                layers.iter().fold(Expr::Number(0.0), |sum, (_, layer)| add(sum, of(layer).clone()))
-            };
-            let rotary = sum(|layer| &layer.inertia[0]);
-            Some(Section {
-                length,
-                outer,
-                mass: sum(|layer| &layer.mass),
-                polar: multiply(Expr::Number(2.0), rotary.clone()),
-                rotary,
-                bending: sum(|layer| &layer.stiffness[1]),
-                shear: sum(|layer| &layer.against_strain[1]),
-                twist: sum(|layer| &layer.stiffness[0]),
-                stretch: sum(|layer| &layer.against_strain[0]),
-            })
+            let folds = layers.iter().map(|layer| layer.folds(|size| self.nominal_of(size))).fold(0.0, f64::max);
+            Some(row_of_layers(&length, &layers, ((STEPS * folds) as usize).clamp(FEWEST, MOST_STEPS)))
         });
         // Every row is read, so that each mistake is reported.
-        let sections: Vec<Option<Section>> = sections.collect();
+        let sections: Vec<Option<Vec<Section>>> = sections.collect();
         sections.into_iter().collect()
     }
 
-    /// Layers from the inside out, each an outer and perhaps an inner diameter and perhaps a material: its diameter and its
-    /// section.
+    /// Layers from the inside out, each an outer and perhaps an inner diameter and perhaps a material.
     fn layers(
         &mut self,
         name: &Ident,
@@ -253,7 +244,7 @@ impl Resolver<'_> {
         entries: &[Value],
         at: &Value,
         whole: &Whole,
-    ) -> Option<Vec<(Expr, crate::model::mechanism::Section)>> {
+    ) -> Option<Vec<Layer>> {
         let mut layers = Vec::new();
         let mut sizes: Vec<&Value> = Vec::new();
         let mut rest = entries.iter().peekable();
@@ -313,47 +304,60 @@ impl Resolver<'_> {
         number: usize,
         (outer, inner): (&Value, Option<&Value>),
         (material, coefficient): Whole,
-    ) -> Option<(Expr, crate::model::mechanism::Section)> {
-        let diameter = self.size_of_section(name, number, "outer diameter", outer);
-        let bore = match inner {
+    ) -> Option<Layer> {
+        let diameters = self.both_ends(name, number, "outer diameter", outer);
+        let bores = match inner {
             Some(value) if matches!(&value.kind, ValueKind::Number(0.0, _)) => None,
-            Some(value) => Some((self.size_of_section(name, number, "inner diameter", value)?, value)),
+            Some(value) => Some((self.both_ends(name, number, "inner diameter", value)?, value)),
             None => None,
         };
-        let diameter = diameter?;
+        let diameters = diameters?;
         let radius = |diameter: &Expr| multiply(Expr::Number(0.5), diameter.clone());
-        let (kind, ends) = match bore {
-            None => (Kind::Circle, vec![radius(&diameter)]),
-            Some((bore, value)) => {
-                self.requirements.push(Requirement {
-                    what: format!("the inner diameter of section {number} of `{name}`"),
-                    values: vec![bore.clone(), diameter.clone()],
-                    demand: Demand::BelowOuter,
-                    extent: value.extent,
-                });
-                (Kind::Tube, vec![radius(&diameter), radius(&bore)])
+        let (kind, ends) = match bores {
+            None => (Kind::Circle, diameters.each_ref().map(|diameter| vec![radius(diameter)])),
+            Some((bores, value)) => {
+                for (bore, diameter) in bores.iter().zip(&diameters) {
+                    self.requirements.push(Requirement {
+                        what: format!("the inner diameter of section {number} of `{name}`"),
+                        values: vec![bore.clone(), diameter.clone()],
+                        demand: Demand::BelowOuter,
+                        extent: value.extent,
+                    });
+                }
+                (Kind::Tube, [0, 1].map(|end| vec![radius(&diameters[end]), radius(&bores[end])]))
             }
         };
         let none = || [Expr::Number(0.0), Expr::Number(0.0)];
         let table = Table {
             kind,
-            ends: [ends.clone(), ends],
+            ends,
             material,
             centers: [none(), none()],
             coupling: [Vec::new(), Vec::new()],
             is_flat: false,
             is_matrix: false,
         };
-        let mut section = table.section(0.0, (&Expr::Number(0.0), &none()));
-        if let (Some(coefficient), Some(modulus), Some(shear)) =
-            (coefficient, table.material.modulus, table.material.shear_modulus)
-        {
-            let [axial, ..] = &section.against_strain;
-            let area = divide(axial.clone(), modulus);
-            let shear = multiply(coefficient, multiply(shear, area));
-            section.against_strain[1..].fill(shear);
+        let [outer, _] = diameters;
+        Some(Layer { outer, table, coefficient })
+    }
+
+    /// A size at the beginning and at the end of a section: `taper(60 mm, 40 mm)`, or one for both.
+    fn both_ends(&mut self, name: &Ident, number: usize, what: &str, value: &Value) -> Option<[Expr; 2]> {
+        match &value.kind {
+            ValueKind::Call(word, ends) if word == "taper" => {
+                let [first, last] = &ends[..] else {
+                    let message = "`taper` has a size at the beginning of the section and one at its end";
+                    self.diagnostics.error_with_help(value.extent, message, "write `taper(60 mm, 40 mm)`");
+                    return None;
+                };
+                let [first, last] = [first, last].map(|end| self.size_of_section(name, number, what, end));
+                Some([first?, last?])
+            }
+            _ => {
+                let size = self.size_of_section(name, number, what, value)?;
+                Some([size.clone(), size])
+            }
         }
-        Some((diameter, section))
     }
 
     fn size_of_section(&mut self, name: &Ident, number: usize, what: &str, value: &Value) -> Option<Expr> {
@@ -367,6 +371,76 @@ impl Resolver<'_> {
         });
         Some(size)
     }
+}
+
+/// A layer of a section, whose sizes change linearly along it.
+struct Layer {
+    /// At the beginning.
+    outer: Expr,
+    table: Table,
+    coefficient: Option<Expr>,
+}
+
+impl Layer {
+    fn is_tapered(&self) -> bool {
+        let [first, last] = &self.table.ends;
+        first != last
+    }
+
+    /// The greatest change of a size along it, as a logarithm.
+    fn folds(&self, nominal: impl Fn(&Expr) -> f64) -> f64 {
+        let [first, last] = &self.table.ends;
+        let each = first.iter().zip(last).map(|(a, b)| (nominal(b) / nominal(a)).ln().abs());
+        each.fold(0.0, f64::max)
+    }
+
+    fn section(&self, fraction: f64) -> mechanism::Section {
+        let none = [Expr::Number(0.0), Expr::Number(0.0)];
+        let mut section = self.table.section(fraction, (&Expr::Number(0.0), &none));
+        let material = &self.table.material;
+        if let (Some(coefficient), Some(modulus), Some(shear)) =
+            (&self.coefficient, &material.modulus, &material.shear_modulus)
+        {
+            let area = divide(section.against_strain[0].clone(), modulus.clone());
+            let shear = multiply(coefficient.clone(), multiply(shear.clone(), area));
+            section.against_strain[1..].fill(shear);
+        }
+        section
+    }
+}
+
+/// What a row of the table stands for: one section, or if it is tapered so many pairs.
+fn row_of_layers(length: &Expr, layers: &[Layer], steps: usize) -> Vec<Section> {
+    let at = |fraction: f64, length: Expr| {
+        let sections: Vec<mechanism::Section> = layers.iter().map(|layer| layer.section(fraction)).collect();
+        let sum = |of: fn(&mechanism::Section) -> &Expr| {
+            sections.iter().fold(Expr::Number(0.0), |sum, layer| add(sum, of(layer).clone()))
+        };
+        let rotary = sum(|layer| &layer.inertia[0]);
+        Section {
+            length,
+            outer: layers.last().map_or(Expr::Number(0.0), |layer| layer.outer.clone()),
+            mass: sum(|layer| &layer.mass),
+            polar: multiply(Expr::Number(2.0), rotary.clone()),
+            rotary,
+            bending: sum(|layer| &layer.stiffness[1]),
+            shear: sum(|layer| &layer.against_strain[1]),
+            twist: sum(|layer| &layer.stiffness[0]),
+            stretch: sum(|layer| &layer.against_strain[0]),
+        }
+    };
+    if !layers.iter().any(Layer::is_tapered) {
+        return vec![at(0.0, length.clone())];
+    }
+    let step = 1.0 / steps as f64;
+    let half = multiply(Expr::Number(0.5 * step), length.clone());
+    let aside = 3_f64.sqrt() / 6.0;
+    let pairs = (0..steps).flat_map(|k| {
+        let gauss = [0.5 - aside, 0.5 + aside].map(|place| at((k as f64 + place) * step, half.clone()));
+        let near = 0.5 + 2.0 * aside;
+        [[near, 1.0 - near], [1.0 - near, near]].map(|weights| Section::mean(&gauss, weights))
+    });
+    pairs.collect()
 }
 
 fn row_of(row: &Value) -> Option<&[Value]> {

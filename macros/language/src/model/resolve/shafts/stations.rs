@@ -68,8 +68,11 @@ impl Resolver<'_> {
                 name: name.clone(),
                 axes: declared.axes.clone(),
                 speed: declared.speed.clone(),
-                masses: declared.sections.iter().map(mass).collect(),
-                sizes: declared.sections.iter().map(|own| [own.length.clone(), own.outer.clone()]).collect(),
+                masses: declared.between(0, declared.last()).map(mass).collect(),
+                sizes: declared
+                    .between(0, declared.last())
+                    .map(|own| [own.length.clone(), own.outer.clone()])
+                    .collect(),
                 stations,
                 spans,
                 positive: declared.positive.clone(),
@@ -107,8 +110,7 @@ impl Resolver<'_> {
             coordinates[k] = Some(id);
             steps.push(JointStep { motion, axis: declared.axes[axis].clone(), coordinate: id });
         }
-        let before = declared.sections[..place].iter();
-        let arm = before.fold(Expr::Number(0.0), |arm, section| add(arm, section.length.clone()));
+        let arm = declared.between(0, place).fold(Expr::Number(0.0), |arm, section| add(arm, section.length.clone()));
         let along = &declared.axes[0];
         let offset = std::array::from_fn(|k| add(declared.origin[k].clone(), multiply(arm.clone(), along[k].clone())));
         joints.push(Joint {
@@ -135,7 +137,7 @@ impl Resolver<'_> {
         gravity: &Vector,
         forces: &mut Vec<Force>,
     ) -> Vec<Span> {
-        let sections = &declared.sections[ends[0].place..ends[1].place];
+        let between = || declared.between(ends[0].place, ends[1].place);
         let zero = || Expr::Number(0.0);
         let (lag, drag) = (&declared.lag, &declared.drag);
         let mut lines: Vec<(Line, Motions, Vec<Numbers>)> = Vec::new();
@@ -144,7 +146,7 @@ impl Resolver<'_> {
                 let [stiffness, shear, mass, rotary, drag] = of(own);
                 [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), zero(), drag]
             };
-            sections.iter().map(row).collect()
+            between().map(row).collect()
         };
         if let Some(line) = declared.bending {
             let of = |own: &Section| {
@@ -162,10 +164,10 @@ impl Resolver<'_> {
             let of = |own: &Section| [own.twist.clone(), zero(), own.polar.clone(), zero(), zero()];
             lines.push((Line::Bar, &[(5, 1.0)], numbers(&of)));
         }
-        let lengths: Vec<f64> = declared.sections.iter().map(|own| self.nominal_of(&own.length)).collect();
-        let total: f64 = lengths.iter().sum();
-        let pieces = |length: &f64| ((declared.elements as f64 * length / total - 1e-9).ceil() as usize).max(1);
-        let elements: Vec<usize> = lengths[ends[0].place..ends[1].place].iter().map(pieces).collect();
+        let nominal = |own: &Section| self.nominal_of(&own.length);
+        let total: f64 = declared.between(0, declared.last()).map(nominal).sum();
+        let pieces = |own: &Section| ((declared.elements as f64 * nominal(own) / total - 1e-9).ceil() as usize).max(1);
+        let elements: Vec<usize> = between().map(pieces).collect();
         let mut spans = Vec::new();
         for (line, motions, sections) in lines {
             // Each number is computed once for everything that uses it.
