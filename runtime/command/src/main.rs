@@ -18,6 +18,7 @@ mod picture;
 mod point;
 mod progress;
 mod requirements;
+mod rotor;
 mod rows;
 mod study_file;
 mod sweep;

@@ -76,7 +76,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-numerics"], 40),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 40),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 449),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 423),

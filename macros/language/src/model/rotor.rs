@@ -16,7 +16,9 @@ pub fn turning_mass(mechanism: &Mechanism, u: &[f64], b: &[f64]) -> f64 {
         let density = beam.sections.iter().map(|(_, weight, section)| weight * values.of(&section.mass)).sum::<f64>();
         density * values.of(&beam.length)
     });
-    rigid.chain(flexible).sum()
+    let shafts = mechanism.shafts.iter().filter(|shaft| shaft.speed != Expr::Number(0.0));
+    let stepped = shafts.flat_map(|shaft| &shaft.masses).map(|mass| values.of(mass));
+    rigid.chain(flexible).chain(stepped).sum()
 }
 
 /// For each body whether a running coordinate turns it.

@@ -13,14 +13,15 @@ use crate::destination::Destination;
 use crate::diagnostics;
 use crate::failure::Failure;
 use crate::mistake::Mistake;
+use crate::rotor;
 use crate::verdict::Verdict;
 
-/// Translate a robot in a URDF file, or a model of MuJoCo (MJCF), into a declaration; notes say what a mechanism cannot express.
+/// Translate a robot in a URDF file, a model of MuJoCo (MJCF), or a rotor that ROSS has saved, into a declaration; notes say what a mechanism cannot express.
 ///
-/// A model of MuJoCo says itself what holds it and what resists its joints: of the options only `--name` and `--joints` matter to it.
+/// A model of MuJoCo says itself what holds it and what resists its joints: of the options only `--name` and `--joints` matter to it, to a rotor only `--name`.
 #[derive(Args, Debug)]
 pub(crate) struct Import {
-    /// URDF or MJCF file, `-` for standard input
+    /// URDF, MJCF or ROSS file, `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// How the root of the robot is held
@@ -84,6 +85,18 @@ impl Import {
         self.place.check()?;
         let file = Declaration::raw(&self.file)?;
         let folder = self.file.parent().unwrap_or(Path::new(""));
+        if rotor::is_rotor(&file.text) {
+            let imported = rotor::import(&file.text, self.name.as_deref()).map_err(|message| Failure::Value {
+                place: file.name.clone(),
+                message,
+                help: Some("a rotor is what `Rotor.save` of ROSS writes, in TOML or JSON".to_owned()),
+            })?;
+            self.place.write(&imported.declaration)?;
+            if !self.quiet {
+                imported.notes.iter().for_each(diagnostics::note);
+            }
+            return Ok(Verdict::Yes);
+        }
         let is_mjcf = is_mjcf(&file.text);
         let options = self.options(self.joints.unwrap_or(if is_mjcf { Joints::File } else { Joints::Springs }))?;
         let robot = if is_mjcf {

@@ -20,7 +20,7 @@ fn table_of_file(path: &Path) -> Table {
 }
 
 /// The table of a JSON document, which is written once all results are known.
-fn documented(arguments: &[&str], name: &str) -> Table {
+pub(crate) fn documented(arguments: &[&str], name: &str) -> Table {
     let text = answer(&[arguments, &["--json"]].concat());
     let tables = json::read_tables(text.as_bytes()).unwrap();
     tables.into_iter().find(|table| table.name == name).unwrap()

@@ -9,17 +9,19 @@ use super::{Method, Sensitivities, Slopes, assemble, check_state};
 use crate::algebra::{dot_complex, form};
 use crate::kernels::{Kernels, Linear, PartialMatrices};
 use crate::modes::{Family, pencil_times};
+use crate::shafts::refuse;
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode from explicit partials and the shift (eqs. 19-21 completed).
 ///
 /// # Errors
-/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite.
+/// [`Error::CriticalState`] if `Khat` is singular, [`Error::OutsideDomain`] if a derivative is not finite, [`Error::NotWithShafts`].
 pub fn sensitivities_explicit(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
+    refuse(&mechanism.description(), "derivatives of the matrices")?;
     let shift = equilibrium_shift(mechanism, at)?;
     let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::Explicit, |sensitivity, mode| {
@@ -45,13 +47,14 @@ pub fn sensitivities_explicit(
 /// critical speed they are -1/2 of the true ones.
 ///
 /// # Errors
-/// [`Error::OutsideDomain`] if a derivative is not finite.
+/// [`Error::OutsideDomain`] if a derivative is not finite, [`Error::NotWithShafts`].
 pub fn sensitivities_with_frozen_equilibrium(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
     check_state(mechanism, at)?;
+    refuse(&mechanism.description(), "derivatives of the matrices")?;
     let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::FrozenEquilibrium, |sensitivity, mode| {
         let rate = Rate::of(at, modes.family, mode);

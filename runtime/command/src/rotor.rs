@@ -1,0 +1,248 @@
+//! Rotors that ROSS has saved, as TOML or JSON, translated into declarations.
+//!
+//! ROSS has its axis along z and moves across along x and y; in a declaration the shaft lies along x and moves along y and z.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde_json::{Map, Value};
+
+/// A declaration and what it lacks of the file.
+pub(crate) struct Rotor {
+    pub(crate) declaration: String,
+    pub(crate) notes: Vec<String>,
+}
+
+/// Whether a text is a rotor that ROSS has saved.
+pub(crate) fn is_rotor(text: &str) -> bool {
+    text.contains("ShaftElement")
+}
+
+/// Translates a rotor, or says what is wrong and where.
+pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
+    let file: Map<String, Value> = if text.trim_start().starts_with('{') {
+        serde_json::from_str(text).map_err(|error| error.to_string())?
+    } else {
+        toml::from_str(text).map_err(|error| error.to_string())?
+    };
+    let mut notes = Vec::new();
+    let mut elements: BTreeMap<&str, Vec<Element<'_>>> = BTreeMap::new();
+    for (key, value) in &file {
+        let Some((kind, _)) = key.split_once("Element_").or_else(|| key.split_once('_')) else { continue };
+        let Value::Object(fields) = value else { continue };
+        match kind {
+            "Shaft" | "Disk" | "Bearing" | "Seal" => elements.entry(kind).or_default().push(Element { key, fields }),
+            _ if fields.contains_key("n") => {
+                notes.push(format!("`{key}` is left out: shafts, disks, bearings and seals are translated"));
+            }
+            _ => {}
+        }
+    }
+    let of = |kind: &str| elements.get(kind).map_or(&[][..], Vec::as_slice);
+    let rows = rows(of("Shaft"))?;
+    let first = *rows.keys().next().ok_or("there is no shaft element")?;
+    let mut materials = Materials::default();
+    let (mut table, mut places) = (String::new(), vec![0.0]);
+    for (k, (node, layers)) in rows.iter().enumerate() {
+        if *node != first + k {
+            return Err(format!("no shaft element begins at node {}", first + k));
+        }
+        let length = layers[0].number("L")?;
+        places.push(places[k] + length);
+        write!(table, "\n        [{length} m").map_err(|error| error.to_string())?;
+        for layer in layers {
+            if layer.number("L")? != length {
+                return Err(format!("`{}` is not as long as the other element from node {node}", layer.key));
+            }
+            table += &layer.sizes(&mut materials)?;
+            notes.extend(layer.left_out());
+        }
+        table += "],";
+    }
+    let slender = of("Shaft").iter().all(|layer| layer.fields.get("shear_effects") == Some(&Value::Bool(false)));
+    let station = |element: &Element<'_>| -> Result<usize, String> {
+        let node = element.node()?;
+        let inside = node.checked_sub(first).filter(|station| *station < places.len());
+        inside.ok_or_else(|| format!("`{}` is at node {node}, which is off the shaft", element.key))
+    };
+    let mut rest = String::new();
+    for (k, disk) in of("Disk").iter().enumerate() {
+        let [mass, across, about] = [disk.number("m")?, disk.number("Id")?, disk.number("Ip")?];
+        rest += &format!(
+            "\n    body disk_{k}: rigid(mass: {mass} kg, inertia: [{about}, {across}, {across}] kg*m^2);
+    joint turns_{k}: revolute(x) from rotor at station {} to disk_{k}, driven at speed;\n",
+            station(disk)?
+        );
+    }
+    for (k, bearing) in of("Bearing").iter().chain(of("Seal")).enumerate() {
+        if bearing.fields.get("n_link").is_some_and(|link| !link.is_null()) {
+            return Err(format!("`{}` stands on another node (`n_link`): declare its support yourself", bearing.key));
+        }
+        let place = station(bearing)?;
+        rest += &bearing.film(k, (place, places[place]))?;
+        if ["mxx", "myy", "mxy", "myx"].iter().any(|mass| bearing.largest(mass) != 0.0) {
+            notes.push(format!("the masses of `{}` are left out", bearing.key));
+        }
+    }
+    if rest.contains("curve ") {
+        notes.push("between the speeds of a table ROSS interpolates in another way".to_owned());
+    }
+    let slender = if slender { ", shear: 0" } else { "" };
+    let name = name.unwrap_or("Rotor");
+    let declaration = format!(
+        "/// A rotor that ROSS has saved.\nmechanism {name} {{
+    input speed: rad/s;
+
+{}    gravity 9.81 m/s^2 along -z;
+
+    body rotor: shaft(along: x, up: z, sections: [{table}
+    ]{slender}) spinning at speed;
+{rest}}}\n",
+        materials.declared()
+    );
+    notes.push("the shaft bends only: add `lines: [bending, torsion, stretch]` for the rest".to_owned());
+    notes.push(
+        "the file has no unbalance: declare one, as in `unbalance u: on disk_0, amount: 100 g*mm, angle: 0 deg;`"
+            .to_owned(),
+    );
+    notes.sort();
+    notes.dedup();
+    Ok(Rotor { declaration, notes })
+}
+
+/// An element of the file.
+#[derive(Clone, Copy)]
+struct Element<'a> {
+    key: &'a str,
+    fields: &'a Map<String, Value>,
+}
+
+/// The layers that begin at each node.
+fn rows<'a>(elements: &[Element<'a>]) -> Result<BTreeMap<usize, Vec<Element<'a>>>, String> {
+    let mut rows: BTreeMap<usize, Vec<Element<'a>>> = BTreeMap::new();
+    for element in elements {
+        rows.entry(element.node()?).or_default().push(*element);
+    }
+    for layers in rows.values_mut() {
+        let inner = |element: &Element<'_>| element.number("idl").unwrap_or(0.0);
+        layers.sort_by(|a, b| inner(a).total_cmp(&inner(b)));
+    }
+    Ok(rows)
+}
+
+impl Element<'_> {
+    fn number(&self, field: &str) -> Result<f64, String> {
+        let number = self.fields.get(field).and_then(Value::as_f64);
+        number.ok_or_else(|| format!("`{}` has no number `{field}`", self.key))
+    }
+
+    fn node(&self) -> Result<usize, String> {
+        let node = self.fields.get("n").and_then(Value::as_u64);
+        node.map(|node| node as usize).ok_or_else(|| format!("`{}` has no node `n`", self.key))
+    }
+
+    /// Numbers that may be one for all speeds.
+    fn list(&self, field: &str) -> Vec<f64> {
+        match self.fields.get(field) {
+            Some(Value::Array(list)) => list.iter().filter_map(Value::as_f64).collect(),
+            Some(value) => value.as_f64().into_iter().collect(),
+            None => Vec::new(),
+        }
+    }
+
+    fn largest(&self, field: &str) -> f64 {
+        self.list(field).into_iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+    }
+
+    /// The diameters and the material of a layer.
+    fn sizes(&self, materials: &mut Materials) -> Result<String, String> {
+        let size = |left: &str, right: &str| -> Result<String, String> {
+            let [left, right] = [self.number(left)?, self.number(right)?];
+            Ok(if left == right { format!("{left} m") } else { format!("taper({left} m, {right} m)") })
+        };
+        let material = self.fields.get("material").and_then(Value::as_object);
+        let material =
+            Element { key: self.key, fields: material.ok_or_else(|| format!("`{}` has no `material`", self.key))? };
+        let numbers = [material.number("rho")?, material.number("E")?, material.number("G_s")?];
+        let wanted = material.fields.get("name").and_then(Value::as_str).unwrap_or("material");
+        let name = materials.name(wanted, numbers);
+        Ok(format!(", {}, {}, {name}", size("odl", "odr")?, size("idl", "idr")?))
+    }
+
+    fn left_out(&self) -> Vec<String> {
+        let is_false = |field: &str| self.fields.get(field) == Some(&Value::Bool(false));
+        let mut all = Vec::new();
+        if ["axial_force", "torque"].iter().any(|field| self.largest(field) != 0.0) {
+            all.push("axial forces and torques are left out".to_owned());
+        }
+        if ["alpha", "beta"].iter().any(|field| self.largest(field) != 0.0) {
+            all.push("proportional damping of the shaft is left out: give `lag` or `drag`".to_owned());
+        }
+        if is_false("rotary_inertia") || is_false("gyroscopic") {
+            all.push("sections have rotary inertia and gyroscopic moments, which the file leaves out".to_owned());
+        }
+        all
+    }
+
+    /// The force of a bearing, with curves against speed.
+    fn film(&self, k: usize, (station, place): (usize, f64)) -> Result<String, String> {
+        let speeds = self.list("frequency");
+        let mut curves = String::new();
+        let mut coefficient = |field: &str, unit: &str| -> Result<String, String> {
+            let values = self.list(field);
+            match values[..] {
+                [] => Ok("0".to_owned()),
+                [only] => Ok(format!("{only} {unit}")),
+                _ if values.iter().all(|value| *value == values[0]) => Ok(format!("{} {unit}", values[0])),
+                _ if values.len() == speeds.len() => {
+                    curves += &format!("    curve {field}_{k}: {speeds:?} rad/s -> {values:?} {unit};\n");
+                    Ok(format!("{field}_{k}(speed)"))
+                }
+                _ => Err(format!("`{field}` of `{}` has not as many values as `frequency`", self.key)),
+            }
+        };
+        let mut matrix = |letter: &str, unit: &str| -> Result<String, String> {
+            let [xx, xy, yx, yy] = ["xx", "xy", "yx", "yy"].map(|pair| coefficient(&format!("{letter}{pair}"), unit));
+            Ok(format!("[[0, 0, 0], [0, {}, {}], [0, {}, {}]]", xx?, xy?, yx?, yy?))
+        };
+        let (stiffness, damping) = (matrix("k", "N/m")?, matrix("c", "N*s/m")?);
+        Ok(format!(
+            "\n{curves}    point seat_{k}: ground at [{place} m, 0, 0];
+    point journal_{k}: rotor at station {station};
+    force bearing_{k}: bushing(from: seat_{k}, to: journal_{k},
+        stiffness: {stiffness},
+        damping: {damping});
+    output across_{k} = position(journal_{k}).y;
+    output up_{k} = position(journal_{k}).z;\n"
+        ))
+    }
+}
+
+/// Materials by their numbers: density, modulus and shear modulus.
+#[derive(Default)]
+struct Materials {
+    all: Vec<(String, [f64; 3])>,
+}
+
+impl Materials {
+    fn name(&mut self, wanted: &str, numbers: [f64; 3]) -> String {
+        if let Some((name, _)) = self.all.iter().find(|(_, known)| *known == numbers) {
+            return name.clone();
+        }
+        let plain: String =
+            wanted.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
+        let plain = format!("of_{plain}");
+        let taken = |name: &str| self.all.iter().any(|(other, _)| other == name);
+        let free = (1..).map(|k| if k == 1 { plain.clone() } else { format!("{plain}_{k}") }).find(|name| !taken(name));
+        let name = free.unwrap_or(plain);
+        self.all.push((name.clone(), numbers));
+        name
+    }
+
+    fn declared(&self) -> String {
+        let one = |(name, [density, modulus, shear]): &(String, [f64; 3])| {
+            format!("    material {name}: density {density} kg/m^3, modulus {modulus} Pa, shear_modulus {shear} Pa;\n")
+        };
+        self.all.iter().map(one).collect()
+    }
+}
