@@ -120,7 +120,7 @@ fn a_rotor_of_ross_is_the_same_here() {
         close(2.0 * PI * damping[k] / (1.0 - damping[k].powi(2)).sqrt(), decrement, 1e-4);
     }
     for (k, speed) in ["speed=500rad/s", "speed=1000rad/s"].into_iter().enumerate() {
-        let response = documented(&["response", &path, "--set", speed], "response");
+        let response = documented(&["response", &path, "--set", speed], "forced response");
         let amplitudes = numbers_of(&response, "amplitude");
         let last = amplitudes.len() - 2;
         close(amplitudes[last], list("across")[k], 1e-5);
