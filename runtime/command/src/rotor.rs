@@ -31,7 +31,8 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
         let Some((kind, _)) = key.split_once("Element_").or_else(|| key.split_once('_')) else { continue };
         let Value::Object(fields) = value else { continue };
         match kind {
-            "Shaft" | "Disk" | "Bearing" | "Seal" => elements.entry(kind).or_default().push(Element { key, fields }),
+            "Shaft" | "Disk" => elements.entry(kind).or_default().push(Element { key, fields }),
+            _ if fields.contains_key("kxx") => elements.entry("Bearing").or_default().push(Element { key, fields }),
             _ if fields.contains_key("n") => {
                 notes.push(format!("`{key}` is left out: shafts, disks, bearings and seals are translated"));
             }
@@ -45,7 +46,10 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
     let (mut table, mut places) = (String::new(), vec![0.0]);
     for (k, (node, layers)) in rows.iter().enumerate() {
         if *node != first + k {
-            return Err(format!("no shaft element begins at node {}", first + k));
+            return Err(format!(
+                "no shaft element begins at node {}, but one at node {node}: one shaft is translated, its nodes in order",
+                first + k
+            ));
         }
         let length = layers[0].number("L")?;
         places.push(places[k] + length);
@@ -74,7 +78,7 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
             station(disk)?
         );
     }
-    for (k, bearing) in of("Bearing").iter().chain(of("Seal")).enumerate() {
+    for (k, bearing) in of("Bearing").iter().enumerate() {
         if bearing.fields.get("n_link").is_some_and(|link| !link.is_null()) {
             return Err(format!("`{}` stands on another node (`n_link`): declare its support yourself", bearing.key));
         }

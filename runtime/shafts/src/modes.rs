@@ -289,8 +289,10 @@ impl Assembly {
         let first = at.solve_real(first);
         // The second half of a vector is the first times `s`: divided by what is typical, both weigh alike.
         let flat = |x: &Motion, v: &Motion| {
-            let mut all = x.reals(1.0);
-            all.extend(v.reals(1.0 / typical));
+            let mut all = Vec::new();
+            x.reals_into(1.0, &mut all);
+            all.reserve(all.len());
+            v.reals_into(1.0 / typical, &mut all);
             all
         };
         let mut start = flat(&first, &first);
@@ -309,12 +311,16 @@ impl Assembly {
             let w = at.solve_real(loads);
             x.add(shift, &w);
             let mut next = flat(&w, &x);
-            let before = dot(&next, &next).sqrt();
+            let before = product(&next, &next).sqrt();
             for _ in 0..2 {
-                let shares: Vec<f64> = basis.iter().map(|own| dot(own, &next)).collect();
+                let shares: Vec<f64> = basis.iter().map(|own| product(own, &next)).collect();
                 for (j, (own, share)) in basis.iter().zip(&shares).enumerate() {
                     hessenberg[j][k] += share;
                     add_to(&mut next, -share, own);
+                }
+                // What is not much shorter than before has lost nothing to rounding.
+                if product(&next, &next).sqrt() > 0.1 * before {
+                    break;
                 }
             }
             let rest = normalise(&mut next);
@@ -409,8 +415,21 @@ impl Mode {
     }
 }
 
+/// The scalar product, from eight sums side by side.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (ahead, bhead) = (a.chunks_exact(8), b.chunks_exact(8));
+    let mut sums = [0.0; 8];
+    let rest = dot(ahead.remainder(), bhead.remainder());
+    for (a, b) in ahead.zip(bhead) {
+        for lane in 0..8 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
 fn normalise(x: &mut [f64]) -> f64 {
-    let norm = dot(x, x).sqrt();
+    let norm = product(x, x).sqrt();
     x.iter_mut().for_each(|x| *x /= norm);
     norm
 }

@@ -67,17 +67,26 @@ impl Motion {
         self.lists().flatten().copied()
     }
 
-    /// All numbers of a real motion, times a factor.
-    pub(crate) fn reals(&self, factor: f64) -> Vec<f64> {
-        let within = self.spans.iter().flatten().flat_map(|along| &along.inner).flat_map(|x| [x.re, x.im]);
-        self.stations.iter().map(|x| x.re).chain(within).map(|x| factor * x).collect()
+    /// Adds all numbers of a real motion, times a factor, to a list.
+    pub(crate) fn reals_into(&self, factor: f64, to: &mut Vec<f64>) {
+        to.extend(self.stations.iter().map(|x| factor * x.re));
+        for along in self.spans.iter().flatten() {
+            for x in &along.inner {
+                to.extend_from_slice(&[factor * x.re, factor * x.im]);
+            }
+        }
     }
 
     /// Sets them, in the same order.
     pub(crate) fn set_reals(&mut self, from: &[f64], factor: f64) {
         let (stations, within) = from.split_at(self.stations.len());
         self.stations.iter_mut().zip(stations).for_each(|(to, x)| *to = Complex::new(factor * x, 0.0));
-        let all = self.spans.iter_mut().flatten().flat_map(|along| &mut along.inner);
-        all.zip(within.chunks_exact(2)).for_each(|(to, x)| *to = Complex::new(factor * x[0], factor * x[1]));
+        let mut within = within;
+        for along in self.spans.iter_mut().flatten() {
+            let (own, rest) = within.split_at(2 * along.inner.len());
+            let pairs = along.inner.iter_mut().zip(own.chunks_exact(2));
+            pairs.for_each(|(to, x)| *to = Complex::new(factor * x[0], factor * x[1]));
+            within = rest;
+        }
     }
 }

@@ -45,6 +45,25 @@ pub(crate) fn turning(n: usize, damping: f64) -> Interpreted {
     read(&(text + "}"))
 }
 
+/// A shaft of different sections between two bearings, with a disk in its middle.
+pub(crate) fn shaft(n: usize) -> Interpreted {
+    let sections: String = (0..n).map(|k| format!("[2 m / {n}, d + {k} um],")).collect();
+    read(&format!(
+        "mechanism Rotor {{ input speed: rad/s; design d = 0.1 m +/- 0.1 mm; design k = 50 MN/m +/- 10%; \
+         material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3; \
+         body rotor: shaft(along: x, up: z, material: steel, sections: [{sections}]) spinning at speed; \
+         body disk: rigid(mass: 30 kg, inertia: [0.6, 0.3, 0.3] kg*m^2); \
+         joint turn: revolute(x) from rotor at station {middle} to disk, driven at speed; \
+         point journal[0]: rotor at station {first}; point seat[0]: ground at [0.25 m, 0, 0]; \
+         point journal[1]: rotor at station {last}; point seat[1]: ground at [1.75 m, 0, 0]; \
+         for i in 0..2 {{ force bearing[i]: bushing(from: seat[i], to: journal[i], stiffness: [0, k, 1.2 * k], \
+         damping: [0, 20, 20] kN*s/m); }} }}",
+        middle = n / 2,
+        first = n / 8,
+        last = n - n / 8,
+    ))
+}
+
 /// The lowest critical speed of a turning machine, rad/s.
 pub(crate) fn critical_speed(n: usize) -> f64 {
     2.0e3 * (std::f64::consts::FRAC_PI_2 / (n + 1) as f64).sin()

@@ -12,15 +12,15 @@ use eigentol::sweep::{Range, critical_state, sweep};
 use eigentol::tolerance::first_order;
 use eigentol::{Equilibrium, Input, Modes, Tolerances, Vector};
 
-use crate::machines::{critical_speed, storeys, turning};
+use crate::machines::{critical_speed, shaft, storeys, turning};
 
-/// A question about a machine of `n` coordinates. Asked, it returns the number of answers.
+/// A question about a machine of `n` coordinates, or a shaft of `n` sections. Asked, it returns the number of answers.
 pub(crate) struct Question {
     pub(crate) name: &'static str,
     pub(crate) prepare: fn(usize) -> Box<dyn FnMut() -> usize>,
 }
 
-pub(crate) const QUESTIONS: [Question; 13] = [
+pub(crate) const QUESTIONS: [Question; 17] = [
     Question { name: "equilibrium", prepare: |n| Case::turning(n, 0.0).timed(Case::equilibrium) },
     Question { name: "modes, undamped", prepare: |n| Case::storeys(n).timed(Case::modes) },
     Question { name: "modes, gyroscopic", prepare: |n| Case::turning(n, 0.0).timed(Case::modes) },
@@ -34,6 +34,10 @@ pub(crate) const QUESTIONS: [Question; 13] = [
     Question { name: "summary, gyroscopic", prepare: |n| Case::turning(n, 0.0).timed(Case::summary) },
     Question { name: "a point of a sweep", prepare: |n| Case::turning(n, 0.0).timed(Case::sweep) },
     Question { name: "critical state", prepare: |n| Case::turning(n, 0.0).timed(Case::critical) },
+    Question { name: "equilibrium, shaft", prepare: |n| Case::shaft(n).timed(Case::equilibrium) },
+    Question { name: "modes, shaft", prepare: |n| Case::shaft(n).timed(Case::modes) },
+    Question { name: "sensitivities, shaft", prepare: |n| Case::shaft(n).timed(Case::sensitivities) },
+    Question { name: "a point of a sweep, shaft", prepare: |n| Case::shaft(n).timed(Case::sweep) },
 ];
 
 const SPEED: Input = Input::new(0);
@@ -53,18 +57,22 @@ struct Case {
 
 impl Case {
     fn storeys(n: usize) -> Self {
-        Self::new(Box::new(storeys(n)), n, Vec::new())
+        Self::new(Box::new(storeys(n)), Vec::new())
     }
 
     /// At half of its critical speed.
     fn turning(n: usize, damping: f64) -> Self {
-        Self::new(Box::new(turning(n, damping)), n, vec![0.5 * critical_speed(n)])
+        Self::new(Box::new(turning(n, damping)), vec![0.5 * critical_speed(n)])
     }
 
-    fn new(machine: Box<dyn SummaryKernels>, n: usize, inputs: Vec<f64>) -> Self {
+    fn shaft(n: usize) -> Self {
+        Self::new(Box::new(shaft(n)), vec![300.0])
+    }
+
+    fn new(machine: Box<dyn SummaryKernels>, inputs: Vec<f64>) -> Self {
         let description = machine.description();
         let design: Vector = description.design.iter().map(|info| info.nominal).collect();
-        let start = vec![0.0; n];
+        let start = vec![0.0; description.coordinates.len()];
         let state = equilibrium(&*machine, &inputs, &design, &start, Policy::Stable).expect("an equilibrium");
         let modes = modes(&state).expect("modes");
         let tolerances = Tolerances::declared(&description).expect("tolerances");
@@ -100,8 +108,7 @@ impl Case {
     }
 
     fn sweep(&self) -> usize {
-        let n = self.start.len();
-        let speed = |k: usize| (0.1 + 0.05 * k as f64) * critical_speed(n);
+        let speed = |k: usize| (0.2 + 0.1 * k as f64) * self.inputs[0];
         let speeds: Vec<f64> = (0..POINTS).map(speed).collect();
         let found = sweep(&*self.machine, &self.inputs, &self.design, &self.start, Policy::Stable, SPEED, &speeds);
         black_box(found).map_or(0, |found| found.points.len())

@@ -30,7 +30,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     (
         "runtime/solve",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-shafts", "eigentol-statistics"],
-        368,
+        369,
     ),
     (
         "runtime/tolerance",
@@ -47,7 +47,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        471,
+        472,
     ),
     (
         "runtime/uncertainty",
@@ -76,9 +76,9 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 40),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 50),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 449),
+    ("macros/language", &["eigentol-symbolic"], 452),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 423),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
@@ -105,7 +105,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        122,
+        131,
     ),
     (
         "runtime/python",

@@ -140,7 +140,7 @@ fn what_is_wrong_with_a_rotor_of_ross_is_named() {
     let text = fs::read_to_string(path).unwrap();
     for (old, new, message) in [
         ("n = 6", "n = 9", "`DiskElement_Disk 1` is at node 9, which is off the shaft"),
-        ("n = 2", "n = 20", "no shaft element begins at node 2"),
+        ("n = 2", "n = 20", "no shaft element begins at node 2, but one at node 3"),
         ("idl = 0.0\n", "", "`ShaftElement_Shaft Element 0` has no number `idl`"),
         ("odl = 0.05\n", "odl = \"a\"\n", "`ShaftElement_Shaft Element 1` has no number `odl`"),
         ("frequency = [ 0.0, 500.0, 1000.0,]", "frequency = [1.0]", "has not as many values as `frequency`"),
