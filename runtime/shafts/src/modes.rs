@@ -43,6 +43,8 @@ const SAME: f64 = 1e-7;
 const APART: f64 = 1e-9;
 /// What is left of a unit vector without a mode, below which no other has its eigenvalue.
 const ALONE: f64 = 1e-3;
+/// The most motions that grow without oscillating which are looked for.
+const DIVERGENT: usize = 12;
 /// The shift as a part of a typical frequency: rigid motions have none.
 const SHIFT: f64 = 0.1;
 
@@ -53,25 +55,46 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
-        let found = self.krylov(count + 2)?;
+        let rigid = RIGID * self.typical_frequency();
+        let (mut modes, lost) = self.of_krylov(count + 2, |s| s.im > rigid)?;
+        modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
+        modes.truncate(count);
+        let complete = modes.len() == count && modes.iter().all(|mode| mode.s.im < lost);
+        if complete || lost.is_infinite() { Ok(modes) } else { Err(Error::NotConverged) }
+    }
+
+    /// The number of motions that grow without oscillating, as on springs that push away, at rates up to those of the lowest
+    /// frequencies.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn divergent(&self) -> Result<usize, Error> {
+        let rigid = RIGID * self.typical_frequency();
+        Ok(self.of_krylov(DIVERGENT, |s| s.im.abs() <= rigid && s.re > rigid)?.0.len())
+    }
+
+    /// The wanted modes of a Krylov space, made exact, and the least frequency of an approximation that led to none.
+    fn of_krylov(&self, count: usize, wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Mode>, f64), Error> {
+        let found = self.krylov(count, &wanted)?;
         let near: Vec<Complex> = found.iter().map(|(s, _)| *s).collect();
         let starts = found.into_iter().zip(self.pencils(&near)).map(|((s, stations), pencil)| {
             let factors = factored(&pencil).or_else(|| factored(&self.pencils(&[s * (1.0 + 1e-10)]).pop()?))?;
             Some(turned(&pencil, &factors, s, stations))
         });
         let starts: Vec<Mode> = starts.collect::<Option<_>>().ok_or(Error::NotConverged)?;
-        let refined: Vec<Mode> = self.refined(&starts).into_iter().collect::<Option<_>>().ok_or(Error::NotConverged)?;
-        let mut modes: Vec<Mode> = Vec::new();
-        for mode in refined {
+        let (mut modes, mut lost): (Vec<Mode>, _) = (Vec::new(), f64::INFINITY);
+        for (mode, start) in self.refined(&starts).into_iter().zip(&starts) {
+            let Some(mode) = mode else {
+                lost = lost.min(start.s.im);
+                continue;
+            };
             // Both of two equal ones are found with the first.
-            if !modes.iter().any(|other| other.is_near(&mode)) {
+            if wanted(mode.s) && !modes.iter().any(|other| other.is_near(&mode)) {
                 modes.push(mode);
             }
         }
         modes.extend(self.equal(&modes));
-        modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
-        modes.truncate(count);
-        Ok(modes)
+        Ok((modes, lost))
     }
 
     /// The number of eigenvalues within a rectangle from one corner to the opposite one, each as often as it is a zero of the
@@ -274,9 +297,13 @@ impl Assembly {
         self.refined(&[start]).pop().flatten().ok_or(Error::NotConverged)
     }
 
-    /// Eigenvalues near a shift and the motions of the stations, the nearest first. The shift is real, and so are all
+    /// Wanted eigenvalues near a shift and the motions of the stations, the nearest first. The shift is real, and so are all
     /// vectors: planar motions are real where that of `y - i z` is the conjugate of that of `y + i z`, which alone is kept.
-    fn krylov(&self, count: usize) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
+    fn krylov(
+        &self,
+        count: usize,
+        wanted: &impl Fn(Complex) -> bool,
+    ) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
         let typical = self.typical_frequency();
         let shift = Complex::new(SHIFT * typical, 0.0);
         let at = self.at(shift).ok_or(Error::NotConverged)?;
@@ -339,9 +366,8 @@ impl Assembly {
             return Err(Error::NotConverged);
         }
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
-        let rigid = RIGID * typical;
-        let oscillates = |value: &Complex| value.norm() > 0.0 && (shift + value.inv()).im > rigid;
-        let pairs = values.into_iter().filter(oscillates).take(count).filter_map(|value| {
+        let of_wanted = |value: &Complex| value.norm() > 0.0 && wanted(shift + value.inv());
+        let pairs = values.into_iter().filter(of_wanted).take(count).filter_map(|value| {
             let near = value * (1.0 + 1e-12);
             let shifted = Matrix::from_fn(size, size, |i, j| if i == j { small[i][j] - near } else { small[i][j] });
             let y = Lu::of(shifted)?.solve(&vec![Complex::new(1.0, 0.0); size]);

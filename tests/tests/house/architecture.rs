@@ -30,7 +30,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     (
         "runtime/solve",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-shafts", "eigentol-statistics"],
-        369,
+        370,
     ),
     (
         "runtime/tolerance",
@@ -76,7 +76,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 50),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 51),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 452),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 423),

@@ -12,7 +12,7 @@ use crate::algebra::Vector;
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
-use crate::modes::{CLUSTER_GAP, Family, Followed, match_with_assurance, merged, near_another, position};
+use crate::modes::{CLUSTER_GAP, Family, Followed, holds, match_with_assurance, merged, near_another, position};
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;
 use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
@@ -162,20 +162,24 @@ impl<'a> Tracker<'a> {
     ) -> Result<Vec<Mode>, Error> {
         let inputs = self.inputs_at(value);
         let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
-        let vouched = self.needed == Needed::Verdict && self.followed.vouch(value);
-        let needed = if vouched { Needed::State } else { self.needed };
-        let point = point.held_by(&self.held).only(needed).beside(self.followed.modes());
+        let point = point.held_by(&self.held).only(self.needed).beside(self.followed.modes());
         point.check_start(from)?;
         state.inputs.clone_from(&inputs);
         let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
         if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state)) {
             return Ok(modes);
         }
-        let modes = solve_into(&point, from, policy, state).map_err(|failure| failure.explain(&point.description))?;
-        if vouched {
-            state.stability = Stability::Stable;
+        let explained = |point: &OperatingPoint<'_>, state: &mut Equilibrium| {
+            solve_into(point, from, policy, state).map_err(|failure| failure.explain(&point.description))
+        };
+        if self.needed == Needed::Verdict && self.followed.vouch(value) {
+            let modes = explained(&point.clone().only(Needed::State), state)?;
+            if holds(state) {
+                state.stability = Stability::Stable;
+                return Ok(modes);
+            }
         }
-        Ok(modes)
+        explained(&point, state)
     }
 
     /// An empty state and its modes, to be overwritten.

@@ -41,7 +41,7 @@ pub use normalisation::{Normalisation, lead};
 #[doc(hidden)]
 pub use pencil::{pencil_slope_times, pencil_times, transposed};
 #[doc(hidden)]
-pub use shafts::{Followed, judge_shafts};
+pub use shafts::{Followed, holds, judge_shafts};
 #[doc(hidden)]
 pub use undamped::undamped;
 pub use whirl::{Character, Kind, Sense, Whirl, Whirls, whirls};

@@ -3,6 +3,7 @@
 use super::mode::{Behaviour, Mode};
 use super::normalisation::normalise_by_mass;
 use crate::algebra::{Cholesky, Lu, Matrix, dot_complex};
+use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::shafts::{Shafts, numbers};
 use crate::{Complex, Description, Equilibrium, Stability};
@@ -66,6 +67,8 @@ impl Followed {
 
 /// The number of modes that are sought: those of lowest frequency.
 const MODES: usize = 12;
+/// Damping that is none, as a part of the greatest: many motions have none at all.
+const UNDAMPED: f64 = 1e-12;
 /// Rounding of an eigenvalue in units of that of the largest terms.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -152,26 +155,48 @@ pub fn judge_shafts(
     if !wanted || state.constraints.singular {
         return Some((Stability::Undecided, Vec::new()));
     }
-    let modes = Shafts::of(state).ok().flatten().and_then(|shafts| shafts.modes(state, nearby)).unwrap_or_default();
-    let stability = if modes.is_empty() { Stability::Undecided } else { stability(state, &modes) };
+    let Some(shafts) = Shafts::of(state).ok().flatten() else { return Some((Stability::Undecided, Vec::new())) };
+    let modes = shafts.modes(state, nearby).unwrap_or_default();
+    let stability = if modes.is_empty() { Stability::Undecided } else { stability(state, &shafts, &modes) };
     Some((stability, modes))
 }
 
-/// The stability of a state with these modes.
-fn stability(at: &Equilibrium, modes: &[Mode]) -> Stability {
+/// The stability of a state with these modes, which all oscillate.
+fn stability(at: &Equilibrium, shafts: &Shafts, modes: &[Mode]) -> Stability {
     let growing = modes.iter().filter(|mode| mode.behaviour.grows()).count();
-    let stiffness = &at.linear.stiffness;
-    if Lu::new(stiffness).is_some_and(|factors| factors.negative_determinant()) {
-        Stability::Divergent { negative: 1 }
-    } else if growing > 0 {
+    let held = holds(at);
+    if !held {
+        let odd = Lu::new(&free(at, &at.linear.stiffness)).is_some_and(|factors| factors.negative_determinant());
+        match shafts.whole.divergent() {
+            Ok(0) if !odd => {}
+            Ok(negative) => return Stability::Divergent { negative: negative.max(1) },
+            Err(_) => return Stability::Undecided,
+        }
+    }
+    if growing > 0 {
         Stability::Flutter { growing }
-    } else if modes.iter().all(|mode| matches!(mode.behaviour, Behaviour::Damped(_)))
-        || Cholesky::new(&symmetric_part(stiffness)).is_ok()
-    {
+    } else if held || modes.iter().all(|mode| matches!(mode.behaviour, Behaviour::Damped(_))) {
         Stability::Stable
     } else {
         Stability::Marginal
     }
+}
+
+/// Whether nothing can grow without oscillating: for a real `s > 0` and any motion, `x^T T(s) x` is positive where stiffness
+/// is positive and damping not negative, as those of spans are.
+#[doc(hidden)]
+#[must_use]
+pub fn holds(at: &Equilibrium) -> bool {
+    let mut damping = symmetric_part(&free(at, &at.linear.damping));
+    let most = (0..damping.row_count()).map(|i| damping[i][i].abs()).fold(f64::MIN_POSITIVE, f64::max);
+    (0..damping.row_count()).for_each(|i| damping[i][i] += UNDAMPED * most);
+    Cholesky::new(&symmetric_part(&free(at, &at.linear.stiffness))).is_ok() && Cholesky::new(&damping).is_ok()
+}
+
+/// A matrix in the directions that constraints leave free.
+fn free(at: &Equilibrium, matrix: &Matrix) -> Matrix {
+    let structure = Structure::of(&at.description);
+    if structure.open() { matrix.clone() } else { Tangent::new(&at.linear, structure).reduce(matrix) }
 }
 
 fn symmetric_part(a: &Matrix) -> Matrix {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use eigentol::{Complex, DesignVariable, Input, Study};
+use eigentol::{Complex, DesignVariable, Input, Stability, Study};
 use eigentol_interpreter::Interpreted;
 
 use crate::beams::compared::machine;
@@ -147,6 +147,55 @@ fn derivatives_are_those_of_differences() {
             );
         }
     }
+}
+
+/// A shaft whose tip is pushed away in both planes, whose root is on springs of which so many are replaced by constraints: it
+/// gives way in each plane where what pushes is stiffer than all that holds the tip, whose compliances add.
+#[test]
+fn what_is_pushed_away_gives_way_in_as_many_directions() {
+    let (length, radius, modulus, poisson): (f64, f64, f64, f64) = (0.5, 0.015, 210e9, 0.3);
+    let inertia = std::f64::consts::FRAC_PI_4 * radius.powi(4);
+    let shear = modulus / (2.0 * (1.0 + poisson)) * std::f64::consts::PI * radius * radius;
+    let shear = shear * 6.0 * (1.0 + poisson) / (7.0 + 6.0 * poisson);
+    let constraints = [
+        "constraint held_y: equation(zero: position(root).y);",
+        "constraint held_z: equation(zero: position(root).z);",
+        "constraint turn_z: equation(zero: position(ahead).z);",
+        "constraint turn_y: equation(zero: position(ahead).y);",
+    ];
+    let mut random = Random(7);
+    let mut seen = [0; 3];
+    for count in 0..=4 {
+        for _ in 0..12 {
+            let compliance = |held: bool, turned: bool| {
+                let own = length.powi(3) / (3.0 * modulus * inertia) + length / shear;
+                own + if held { 0.0 } else { 1.0 / 3e6 } + if turned { 0.0 } else { length * length / 2e4 }
+            };
+            let pushes = [random.between(-2.0, 1.0), random.between(-2.0, 1.0)];
+            let holds = [compliance(count >= 1, count >= 4), compliance(count >= 2, count >= 3)];
+            let [y, z] = [pushes[0] / holds[0], pushes[1] / holds[1]];
+            let text = format!(
+                "mechanism Pushed {{ input omega: rad/s;
+                    material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+                    body rotor: shaft(along: x, up: z, material: steel, sections: [[500 mm, 30 mm]]) spinning at omega;
+                    body disk: disk(mass: 3 kg, radius: 80 mm, axis: x);
+                    joint turns: revolute(x) from rotor at tip to disk, driven at omega;
+                    point seat: ground at [500 mm, 0, 0]; point journal: rotor at tip;
+                    force film: bushing(from: seat, to: journal, stiffness: [0, {y}, {z}] N/m, damping: [0, 200, 100] N*s/m);
+                    point root: rotor at root; point base: ground at [0, 0, 0];
+                    force soft: bushing(from: base, to: root, stiffness: [0, 3e6, 3e6] N/m, damping: [0, 100, 100] N*s/m,
+                        turning_stiffness: [0, 2e4, 2e4] N*m/rad, turning_damping: [0, 5, 5] N*m*s/rad);
+                    body arm: massless; joint weld: fixed from rotor to arm; point ahead: arm at [1 m, 0, 0]; {} }}",
+                constraints[..count].concat()
+            );
+            let negative = pushes.iter().filter(|push| **push < -1.0).count();
+            let expected = if negative == 0 { Stability::Stable } else { Stability::Divergent { negative } };
+            let study = Study::new(machine(&text)).input(Input::new(0), 20.0);
+            assert_eq!(study.equilibrium().expect("a state").stability, expected, "{count} {pushes:?}");
+            seen[negative] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 5), "{seen:?}");
 }
 
 /// A uniform shaft whose root is held is a beam that spins, with a disk and a bearing at its tip; gravity is so weak that the beam
