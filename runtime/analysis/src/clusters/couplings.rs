@@ -222,11 +222,13 @@ struct General<'a> {
 
 impl<'a> General<'a> {
     fn new(mechanism: &dyn Kernels, at: &Equilibrium, members: &'a [&'a Mode]) -> Result<Self, Error> {
-        let shafts = ShaftSlopes::of(mechanism, at)?.map(|shafts| {
+        let shafts = ShaftSlopes::of(mechanism, at)?;
+        let normalisers = members.iter().map(|a| normaliser(at, shafts.as_ref(), a)).collect();
+        let shafts = shafts.map(|shafts| {
             let between = shafts.between(members);
             (shafts, between)
         });
-        Ok(Self { members, normalisers: members.iter().map(|a| normaliser(at, a)).collect(), shafts })
+        Ok(Self { members, normalisers, shafts })
     }
 
     /// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system

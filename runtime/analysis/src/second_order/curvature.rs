@@ -290,7 +290,7 @@ impl<'a> AdjointGradient<'a> {
             adjoint,
             w,
             numerator: joined(&total),
-            denominator: normaliser(at, mode),
+            denominator: normaliser(at, None, mode),
         })
     }
 

@@ -331,9 +331,9 @@ impl Modes {
     /// given.
     #[doc(hidden)]
     pub fn solve_judged(&mut self, at: &Equilibrium, judged: Vec<Mode>, nearby: &[Mode]) -> Result<(), ModesFailure> {
-        let of_shafts = Shafts::of(at).map_err(|_| ModesFailure::Shafts)?;
-        if let Some(shafts) = of_shafts {
-            self.modes = if judged.is_empty() { shafts.modes(at, nearby).ok_or(ModesFailure::Shafts)? } else { judged };
+        if !at.description.spans.is_empty() {
+            let sought = || Shafts::of(at).ok().flatten()?.modes(at, nearby);
+            self.modes = if judged.is_empty() { sought().ok_or(ModesFailure::Shafts)? } else { judged };
             self.family = Family::General;
             sort_by_frequency(&mut self.modes);
             return Ok(());

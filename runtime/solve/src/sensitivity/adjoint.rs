@@ -10,7 +10,7 @@ use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, 
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros};
 use crate::modes::{Family, pencil_slope_times};
-use crate::shafts::{ShaftSlopes, Shafts};
+use crate::shafts::ShaftSlopes;
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode with respect to every input and design variable.
@@ -187,7 +187,7 @@ impl AdjointContext<'_> {
                 (*re, *im) = (*re + slope.re, *im + slope.im);
             });
         }
-        let scale = -normaliser(self.at, mode);
+        let scale = -normaliser(self.at, self.shafts.as_ref(), mode);
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
         let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
         let by_design = re.design.iter().zip(&im.design).map(slope);
@@ -275,10 +275,10 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 }
 
 /// `psi^T (2 s Mhat + Chat) phi`, with shafts `psi^T T'(s) phi`; zero where the eigenvalue has merged with another.
-pub fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
-    let moved = match Shafts::of(at) {
-        Ok(Some(shafts)) => shafts.slope_times(mode.s, &mode.shape),
-        _ => pencil_slope_times(&at.linear, mode.s, &mode.shape),
+pub fn normaliser(at: &Equilibrium, shafts: Option<&ShaftSlopes>, mode: &Mode) -> Complex {
+    let moved = match shafts {
+        Some(own) => own.shafts.slope_times(mode.s, &mode.shape),
+        None => pencil_slope_times(&at.linear, mode.s, &mode.shape),
     };
     dot_complex(mode.left(), &moved)
 }

@@ -80,7 +80,7 @@ pub struct Rate<'a> {
 impl<'a> Rate<'a> {
     #[doc(hidden)]
     pub fn of(at: &Equilibrium, family: Family, mode: &'a Mode) -> Self {
-        Self { family, mode, scale: normaliser(at, mode) }
+        Self { family, mode, scale: normaliser(at, None, mode) }
     }
 
     /// Derivatives from the changes of the matrices with each variable.
