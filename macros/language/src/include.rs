@@ -1,9 +1,11 @@
-//! `include "bearing.part";` before or after a mechanism: the parts that another file declares.
+//! `include "bearing.part";` before or after a mechanism: the parts that another file declares. `"sections.csv"` and
+//! `"casing.mtx"` among values: tables and matrices, whose texts follow the declaration.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use proc_macro2::{Group, Literal, Span, TokenStream, TokenTree};
+use quote::quote_spanned;
 
 use crate::base::diagnostics::Diagnostic;
 
@@ -32,6 +34,28 @@ pub struct Files {
     read: Vec<PathBuf>,
     /// Names of the parts of the library that have been read.
     known: Vec<&'static str>,
+    /// Tables and matrices that have been read, by the names that values give them.
+    data: Vec<(String, PathBuf)>,
+}
+
+/// How the names of files among values end.
+const DATA: [&str; 2] = [".csv", ".mtx"];
+
+/// The text in quotes.
+pub(crate) fn quoted(literal: &Literal) -> Option<String> {
+    match syn::Lit::new(literal.clone()) {
+        syn::Lit::Str(text) => Some(text.value()),
+        _ => None,
+    }
+}
+
+/// The name of a table or a matrix.
+pub(crate) fn data_name(literal: &Literal) -> Option<String> {
+    let is_data = |name: &String| {
+        let name = name.to_ascii_lowercase();
+        DATA.iter().any(|ending| name.ends_with(ending))
+    };
+    quoted(literal).filter(is_data)
 }
 
 /// A file that a declaration includes.
@@ -43,7 +67,7 @@ struct Included {
 impl Files {
     /// Files in a folder and those in it.
     pub fn of(root: &Path) -> Self {
-        Self { root: root.to_owned(), read: Vec::new(), known: Vec::new() }
+        Self { root: root.to_owned(), read: Vec::new(), known: Vec::new(), data: Vec::new() }
     }
 
     /// The files that were included.
@@ -54,11 +78,10 @@ impl Files {
     /// Reads a file once; `chain` are the files from the first one to that which includes it.
     fn include(&mut self, name: &Literal, chain: &[PathBuf]) -> Result<Option<Included>, Diagnostic> {
         let mistake = |message: String| Err(Diagnostic::new(name.span(), message));
-        let syn::Lit::Str(written) = syn::Lit::new(name.clone()) else {
+        let Some(written) = quoted(name) else {
             let error = Diagnostic::new(name.span(), "expected the name of a file");
             return Err(error.with_help("write `include \"bearing.part\";`"));
         };
-        let written = written.value();
         // A folder without a name is this one.
         let here = Path::new(".");
         let folder = chain.last().and_then(|file| file.parent()).unwrap_or(&self.root);
@@ -69,16 +92,7 @@ impl Files {
             self.known.push(name);
             return Ok(Some(Included { path: name.into(), text: text.to_owned() }));
         }
-        let (path, root) = match (here.join(folder).join(&written).canonicalize(), here.join(&self.root).canonicalize())
-        {
-            (Ok(path), Ok(root)) => (path, root),
-            (Err(error), _) | (_, Err(error)) => return mistake(format!("`{written}` cannot be read: {error}")),
-        };
-        let Ok(inside) = path.strip_prefix(&root) else {
-            let message = format!("`{written}` is outside the folder of the declaration");
-            return Err(Diagnostic::new(name.span(), message).with_help("it includes only what is in that folder"));
-        };
-        let path = self.root.join(inside);
+        let path = self.path(name, &written, chain)?;
         if let Some(start) = chain.iter().position(|file| *file == path) {
             let circle: Vec<String> =
                 chain[start..].iter().chain([&path]).map(|file| file.display().to_string()).collect();
@@ -87,12 +101,55 @@ impl Files {
         if self.read.contains(&path) {
             return Ok(None);
         }
+        self.read(name, path).map(Some)
+    }
+
+    /// The text of a table or a matrix that values name, once.
+    fn data(&mut self, name: &Literal, chain: &[PathBuf]) -> Result<Option<(String, Included)>, Diagnostic> {
+        let Some(written) = data_name(name) else { return Ok(None) };
+        let path = self.path(name, &written, chain)?;
+        match self.data.iter().find(|(known, _)| *known == written) {
+            Some((_, known)) if *known == path => Ok(None),
+            Some((_, known)) => {
+                let message = format!("`{written}` is also the name of {}", known.display());
+                Err(Diagnostic::new(name.span(), message).with_help("give the two files different names"))
+            }
+            None => {
+                self.data.push((written.clone(), path.clone()));
+                self.read(name, path).map(|file| Some((written, file)))
+            }
+        }
+    }
+
+    /// Where a file is, in terms of the folder of the declaration.
+    fn path(&self, name: &Literal, written: &str, chain: &[PathBuf]) -> Result<PathBuf, Diagnostic> {
+        let mistake = |message: String| Err(Diagnostic::new(name.span(), message));
+        let here = Path::new(".");
+        let folder = chain.last().and_then(|file| file.parent()).unwrap_or(&self.root);
+        let (path, root) = match (here.join(folder).join(written).canonicalize(), here.join(&self.root).canonicalize())
+        {
+            (Ok(path), Ok(root)) => (path, root),
+            (Err(error), _) | (_, Err(error)) => return mistake(format!("`{written}` cannot be read: {error}")),
+        };
+        match path.strip_prefix(&root) {
+            Ok(inside) => Ok(self.root.join(inside)),
+            Err(_) => {
+                let message = format!("`{written}` is outside the folder of the declaration");
+                Err(Diagnostic::new(name.span(), message).with_help("it includes only what is in that folder"))
+            }
+        }
+    }
+
+    fn read(&mut self, name: &Literal, path: PathBuf) -> Result<Included, Diagnostic> {
         match fs::read_to_string(&path) {
             Ok(text) => {
                 self.read.push(path.clone());
-                Ok(Some(Included { path, text }))
+                Ok(Included { path, text })
             }
-            Err(error) => mistake(format!("`{written}` cannot be read: {error}")),
+            Err(error) => {
+                let message = format!("`{}` cannot be read: {error}", quoted(name).unwrap_or_default());
+                Err(Diagnostic::new(name.span(), message))
+            }
         }
     }
 
@@ -107,6 +164,12 @@ impl Files {
         chain: &mut Vec<PathBuf>,
     ) -> Result<TokenStream, Diagnostic> {
         let (mut own, statements) = split(tokens);
+        for name in named(own.clone()) {
+            if let Some((written, file)) = self.data(&name, chain)? {
+                let text = file.text;
+                own.extend(quote_spanned! { name.span() => file #written #text; });
+            }
+        }
         for statement in statements {
             let Some(file) = self.include(&statement.name, chain)? else { continue };
             let Some(inner) = lexer(&file.text) else {
@@ -155,8 +218,23 @@ fn split(tokens: TokenStream) -> (TokenStream, Vec<Statement>) {
     (own, statements)
 }
 
+/// The tables and matrices that values name, in any depth.
+fn named(tokens: TokenStream) -> Vec<Literal> {
+    let (mut names, mut is_text) = (Vec::new(), false);
+    for token in tokens {
+        match &token {
+            TokenTree::Group(group) => names.extend(named(group.stream())),
+            // Documentation is `doc = "text"`.
+            TokenTree::Literal(literal) if !is_text => names.extend(data_name(literal).map(|_| literal.clone())),
+            _ => {}
+        }
+        is_text = matches!(&token, TokenTree::Punct(sign) if sign.as_char() == '=');
+    }
+    names
+}
+
 /// Tokens at another place.
-fn placed(tokens: TokenStream, at: Span) -> TokenStream {
+pub(crate) fn placed(tokens: TokenStream, at: Span) -> TokenStream {
     let place = |mut token: TokenTree| {
         if let TokenTree::Group(group) = &token {
             token = Group::new(group.delimiter(), placed(group.stream(), at)).into();
@@ -189,7 +267,7 @@ mod texts {
                 Some(file) => mistakes.with_file(file),
                 None => mistakes,
             };
-            let statements = split(tokens(text).map_err(of_file)?).1;
+            let (own, statements) = split(tokens(text).map_err(of_file)?);
             let mut lines: Vec<Vec<char>> = text.split('\n').map(|line| line.chars().collect()).collect();
             for Statement { ends: [first, last], .. } in &statements {
                 let (start, end) = (first.start(), last.end());
@@ -202,16 +280,22 @@ mod texts {
             }
             let lines: Vec<String> = lines.into_iter().map(String::from_iter).collect();
             whole.push_str(&lines.join("\n"));
+            let of_file = |mistake: Diagnostic, chain: &[PathBuf]| {
+                let mut all = Diagnostics::new();
+                all.push(mistake);
+                match chain.last() {
+                    Some(file) => Mistakes::from(all).with_file(file),
+                    None => all.into(),
+                }
+            };
+            for name in named(own) {
+                let file = self.data(&name, chain).map_err(|mistake| of_file(mistake, chain))?;
+                if let Some((written, Included { path, text })) = file {
+                    whole.push_str(&format!("\n{START}{}\nfile {written:?} {text:?};\n", path.display()));
+                }
+            }
             for statement in statements {
-                let file = self.include(&statement.name, chain).map_err(|mistake| {
-                    let mut all = Diagnostics::new();
-                    all.push(mistake);
-                    let of_file = |mistakes: Mistakes| match chain.last() {
-                        Some(file) => mistakes.with_file(file),
-                        None => mistakes,
-                    };
-                    of_file(all.into())
-                })?;
+                let file = self.include(&statement.name, chain).map_err(|mistake| of_file(mistake, chain))?;
                 if let Some(Included { path, text }) = file {
                     whole.push_str(&format!("\n{START}{}\n", path.display()));
                     chain.push(path);

@@ -219,7 +219,7 @@ fn functions(g: &mut Graph, context: &Context, limits: Limits, blades: Blades) -
         requirements,
         poses,
         picture,
-        properties: if mechanism.shafts.is_empty() { properties } else { Properties::GENERAL },
+        properties: if mechanism.spans().next().is_none() { properties } else { Properties::GENERAL },
         undetermined,
         free,
         held,

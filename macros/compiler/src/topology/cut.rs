@@ -18,9 +18,10 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     let mut values: Vec<&Expr> = mechanism.outputs.iter().map(|output| &output.value).collect();
     for force in mechanism.forces.iter().filter(|force| !force.of_every) {
         match &force.law {
-            ForceLaw::CoordinateSpring { coordinate, .. }
-            | ForceLaw::CoordinateDamper { coordinate, .. }
-            | ForceLaw::CoordinateInerter { coordinate, .. } => of_coordinate(*coordinate),
+            ForceLaw::CoordinateSpring { coordinate, .. } | ForceLaw::CoordinateDamper { coordinate, .. } => {
+                of_coordinate(*coordinate)
+            }
+            ForceLaw::CoordinateInerter { coordinates, .. } => coordinates.iter().for_each(|id| of_coordinate(*id)),
             ForceLaw::Generalized { coordinate, value } => {
                 of_coordinate(*coordinate);
                 values.push(value);

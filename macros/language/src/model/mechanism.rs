@@ -17,6 +17,7 @@ pub use super::excitation::{Deviation, Excitation, ExcitationLaw, Frequency, Sha
 use super::expression::{Expr, Matrix, Vector};
 pub use super::shaft::{LUMPED, Line, NUMBERS, Shaft, ShaftStation, Span};
 pub use super::shape::Shape;
+pub use super::superelement::Superelement;
 pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
 use crate::base::dimension::Dimension;
@@ -58,6 +59,8 @@ pub struct Mechanism {
     pub beams: Vec<Beam>,
     /// Shafts of many sections.
     pub shafts: Vec<Shaft>,
+    /// Superelements.
+    pub superelements: Vec<Superelement>,
     /// Joints.
     pub joints: Vec<Joint>,
     /// Joint coordinates, in the order of their joints.
@@ -107,7 +110,9 @@ impl Mechanism {
         self.forces.retain(|force| match force.law {
             ForceLaw::CoordinateSpring { coordinate, .. }
             | ForceLaw::CoordinateDamper { coordinate, .. }
-            | ForceLaw::CoordinateInerter { coordinate, .. } => !force.of_every || !cut.contains(&joint_of(coordinate)),
+            | ForceLaw::CoordinateInerter { coordinates: [coordinate, _], .. } => {
+                !force.of_every || !cut.contains(&joint_of(coordinate))
+            }
             _ => true,
         });
     }
@@ -118,6 +123,12 @@ impl Mechanism {
         joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
     }
 
+    /// The stations of shafts and superelements.
+    pub fn stations(&self) -> impl Iterator<Item = &ShaftStation> {
+        let of_superelements = self.superelements.iter().flat_map(|own| &own.stations);
+        self.shafts.iter().flat_map(|shaft| &shaft.stations).chain(of_superelements)
+    }
+
     /// The spans of all shafts.
     pub fn spans(&self) -> impl Iterator<Item = &Span> {
         self.shafts.iter().flat_map(|shaft| &shaft.spans)
@@ -125,8 +136,8 @@ impl Mechanism {
 
     /// Whether a body has a mass of its own.
     pub fn has_mass(&self, body: BodyId) -> bool {
-        let of_shaft = |shaft: &Shaft| shaft.stations.iter().any(|station| station.body == body);
-        !self.bodies[body.index()].parts.is_empty() || self.beam(body).is_some() || self.shafts.iter().any(of_shaft)
+        let is_station = self.stations().any(|station| station.body == body);
+        !self.bodies[body.index()].parts.is_empty() || self.beam(body).is_some() || is_station
     }
 
     /// Whether a coordinate is a strain of a beam.
@@ -484,11 +495,11 @@ pub enum ForceLaw {
         /// N m s/rad or N s/m.
         damping: Expr,
     },
-    /// `-inertance qddot` on a coordinate.
+    /// `-inertance qddot` of each of two coordinates on the other, which are the same for the inertia of one.
     CoordinateInerter {
-        /// The coordinate.
-        coordinate: CoordinateId,
-        /// kg m^2 or kg.
+        /// The coordinates.
+        coordinates: [CoordinateId; 2],
+        /// kg m^2, kg, or kg m between a turn and a displacement.
         inertance: Expr,
     },
     /// Tension `stiffness (distance - length) + damping d(distance)/dt` between two points.

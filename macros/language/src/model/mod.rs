@@ -16,6 +16,7 @@ mod rules;
 pub mod shaft;
 pub mod shape;
 mod simplify;
+pub mod superelement;
 pub mod tolerance;
 pub mod unit;
 #[cfg(feature = "locations")]

@@ -36,6 +36,7 @@ mod rings;
 mod scope;
 mod shafts;
 mod steady;
+mod superelements;
 mod tension;
 mod tolerances;
 mod typed;
@@ -47,6 +48,7 @@ use self::scope::Scope;
 use super::expression::Vector;
 use super::mechanism::{
     Beam, Body, Constraint, DesignVariable, Excitation, Force, Input, Joint, Mechanism, Output, Point, Shaft, Steady,
+    Superelement,
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
@@ -109,6 +111,7 @@ pub fn resolve_what_is_right(ast: &Ast, more: usize) -> Resolution {
         bodies: items.bodies,
         beams: items.beams,
         shafts: items.shafts,
+        superelements: items.superelements,
         joints: items.joints,
         coordinates: resolver.declared_coordinates,
         points: items.points,
@@ -141,6 +144,7 @@ struct Items {
     bodies: Vec<Body>,
     beams: Vec<Beam>,
     shafts: Vec<Shaft>,
+    superelements: Vec<Superelement>,
     joints: Vec<Joint>,
     points: Vec<Point>,
     forces: Vec<Force>,
@@ -177,10 +181,12 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
     let constraints = resolver.constraints();
     let steady = resolver.steady_values();
     let outputs = resolver.outputs();
-    let (beams, shafts) = resolver.beams_and_shafts(&mut bodies, &mut joints, &points, &mut forces, &gravity);
+    let (beams, shafts, superelements) =
+        resolver.flexible_bodies(&mut bodies, &mut joints, &points, &mut forces, &gravity);
     Items {
         beams,
         shafts,
+        superelements,
         inputs,
         design,
         gravity,
@@ -212,18 +218,19 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
 
 /// Whether every declared body, joint and constraint has become an entry.
 fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
-    let of_shafts: usize = mechanism.shafts.iter().map(|shaft| shaft.stations.len()).sum();
-    let stations = mechanism.beams.iter().map(|beam| beam.stations.len()).sum::<usize>() + of_shafts;
+    let stations = mechanism.beams.iter().map(|beam| beam.stations.len()).sum::<usize>() + mechanism.stations().count();
     let of_beams: usize = mechanism.beams.iter().map(Beam::size).sum();
-    let motions = mechanism.shafts.iter().flat_map(|shaft| &shaft.stations).flat_map(|own| own.coordinates);
-    let of_shafts = motions.flatten().count();
+    let internal: usize = mechanism.superelements.iter().map(|own| own.internal.len()).sum();
+    let of_stations = mechanism.stations().flat_map(|own| own.coordinates).flatten().count() + internal;
+    let roots = mechanism.shafts.len() + mechanism.superelements.len();
     let (bodies, joints) = (mechanism.bodies.len(), mechanism.joints.len());
     !ast.unread.iter().any(Unread::may_connect)
-        && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations - mechanism.shafts.len()
+        && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations - roots
         && joints == count(ast, |kind| matches!(kind, ItemKind::Joint(_))) + stations
-        && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams + of_shafts
+        && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams + of_stations
         && (beams::declared::number_of(ast, "beam") == 0) == mechanism.beams.is_empty()
         && beams::declared::number_of(ast, "shaft") == mechanism.shafts.len()
+        && beams::declared::number_of(ast, "superelement") == mechanism.superelements.len()
         && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
 }
 

@@ -26,16 +26,17 @@ pub struct Shaft {
     pub positive: Vec<(String, Expr)>,
 }
 
-/// A place of a shaft with a frame of its own, which does not spin.
+/// A place of a shaft or a superelement with a frame of its own, which does not spin.
 #[derive(Clone, Debug)]
 pub struct ShaftStation {
-    /// How many sections are before it.
+    /// How many sections are before it, or of a superelement how many stations.
     pub place: usize,
     /// The massless body that moves with it.
     pub body: BodyId,
     /// Its small motions against the ground.
     pub joint: JointId,
-    /// The coordinates of these: across, up, about across, about up, along, about the shaft; none where it is rigid.
+    /// The coordinates of these: across, up, about across, about up, along, about the shaft; of a superelement along and about
+    /// x, y and z; none where it is rigid.
     pub coordinates: [Option<CoordinateId>; 6],
 }
 

@@ -21,6 +21,8 @@ pub struct Ast {
     pub unread: Vec<Unread>,
     /// Where the parts among the items come from.
     pub uses: Uses,
+    /// Tables and matrices that values name: names and texts.
+    pub files: Vec<(String, String)>,
 }
 
 /// The instances of parts in a declaration. Any two are equal, as positions are.
@@ -591,8 +593,11 @@ pub enum ValueKind {
     Sections(Vec<NamedCall>),
     /// `0.4 length`: a place along a beam, only after `at`.
     Fraction(f64),
-    /// `station 4`: the end of a section of a shaft, counted from 1; 0 is its root. Only after `at`.
+    /// `station 4`: the end of a section of a shaft, counted from 1; 0 is its root. Of a superelement its fourth. Only after
+    /// `at`.
     Station(u32),
+    /// `"sections.csv"`: a table or a matrix in a file, only as an argument.
+    File(String),
     /// `(a)`: kept in the tree because `(3 kg) * m` is not `3 kg * m`.
     Parenthesised(Box<Value>),
 }
@@ -667,6 +672,7 @@ impl Value {
             | ValueKind::Name(_)
             | ValueKind::Fraction(_)
             | ValueKind::Station(_)
+            | ValueKind::File(_)
             | ValueKind::Sections(_) => None,
             ValueKind::Vector(values, _) | ValueKind::Call(_, values) => tallest(values),
             ValueKind::Negate(of) | ValueKind::Component(of, _) => Some(of.height),
@@ -704,7 +710,11 @@ impl Value {
         while let Some(value) = rest.pop() {
             parts.push(value);
             match &value.kind {
-                ValueKind::Number(..) | ValueKind::Name(_) | ValueKind::Fraction(_) | ValueKind::Station(_) => {}
+                ValueKind::Number(..)
+                | ValueKind::Name(_)
+                | ValueKind::Fraction(_)
+                | ValueKind::Station(_)
+                | ValueKind::File(_) => {}
                 ValueKind::Sections(calls) => {
                     let arguments = calls.iter().rev().flat_map(NamedCall::values);
                     rest.extend(arguments);

@@ -24,12 +24,13 @@ use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
 use self::words::{COMMENT, DECIMAL_POINT, KEYWORDS};
-use super::ast::{Ast, Item, ItemKind, Unread, Use, Uses};
+use super::ast::{Ast, Item, ItemKind, Unread, Use, Uses, Value};
 use super::scope::{Content, Parts, Scope};
 use super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::joined;
 use crate::base::span::Extent;
+use crate::include::{placed, quoted};
 
 /// Reads a declaration without syntax errors.
 pub fn parse(tokens: TokenStream) -> Result<Ast, Diagnostics> {
@@ -104,7 +105,12 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     let Some((_, content, end)) = tokens.group(Delimiter::Brace) else {
         return tokens.expected("`{`");
     };
+    let mut files = Vec::new();
     loop {
+        if let Some(file) = file(tokens) {
+            files.push(file);
+            continue;
+        }
         let mut ahead = *tokens;
         while ahead.sign('#').is_some() {
             ahead.group(Delimiter::Bracket);
@@ -130,7 +136,26 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     let mut read = Read { items: Vec::new(), unread: Vec::new(), uses: Vec::new(), diagnostics };
     items((content.cursor, end), scope, &mut read);
     let Read { items, unread, uses, .. } = read;
-    Ok(Ast { attributes, visibility, name, items, unread, uses: Uses(uses) })
+    Ok(Ast { attributes, visibility, name, items, unread, uses: Uses(uses), files })
+}
+
+/// A value in a text of its own, all of it at one place of a declaration; `None` if it is none.
+pub(crate) fn value_of(text: &str, at: Extent) -> Option<Value> {
+    let buffer = TokenBuffer::new2(placed(text.parse().ok()?, at.first));
+    let scope = Scope::default();
+    let mut tokens = Tokens::top(buffer.begin(), &scope);
+    let value = value::value(&mut tokens).ok()?;
+    tokens.is_empty().then_some(value)
+}
+
+/// A table or a matrix with its text: `file "casing.mtx" "...";`, which follows the declarations that name it.
+fn file(tokens: &mut Tokens) -> Option<(String, String)> {
+    let mut ahead = *tokens;
+    ahead.word("file")?;
+    let [name, text] = [ahead.literal()?, ahead.literal()?];
+    ahead.sign(';')?;
+    *tokens = ahead;
+    Some((quoted(&name)?, quoted(&text)?))
 }
 
 fn attributes_and_visibility(

@@ -295,6 +295,7 @@ pub fn value(tree: &Value) -> String {
         }
         ValueKind::Fraction(fraction) => format!("{fraction:?} length"),
         ValueKind::Station(station) => format!("station {station}"),
+        ValueKind::File(name) => format!("{name:?}"),
         ValueKind::Parenthesised(inner) => format!("({})", value(inner)),
     }
 }

@@ -46,11 +46,12 @@ pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics)
         twice = g.add(twice, share);
     }
     for force in &context.mechanism.forces {
-        if let ForceLaw::CoordinateInerter { coordinate, inertance } = &force.law {
+        if let ForceLaw::CoordinateInerter { coordinates: [one, other], inertance } = &force.law {
             let inertance = context.values.scalar(g, inertance);
-            let velocity = kinematics.coordinates[coordinate.index()].velocity;
-            let square = g.mul(velocity, velocity);
-            let share = g.mul(inertance, square);
+            let [velocity, across] = [one, other].map(|id| kinematics.coordinates[id.index()].velocity);
+            let square = g.mul(velocity, across);
+            let both = g.scale(if one == other { 1.0 } else { 2.0 }, square);
+            let share = g.mul(inertance, both);
             twice = g.add(twice, share);
         }
     }

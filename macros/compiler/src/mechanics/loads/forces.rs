@@ -55,13 +55,15 @@ impl AppliedForces {
                 *slot = g.sub(*slot, load);
             }
             // Q = -inertance qddot
-            ForceLaw::CoordinateInerter { coordinate, inertance } => {
+            ForceLaw::CoordinateInerter { coordinates: [one, other], inertance } => {
                 let inertance = values.scalar(g, inertance);
-                let acceleration = kinematics.coordinates[coordinate.index()].acceleration;
-                let load = g.mul(inertance, acceleration);
-                g.set_name(load, || name);
-                let slot = &mut self.on_coordinates[coordinate.index()];
-                *slot = g.sub(*slot, load);
+                for (on, of) in [(one, other), (other, one)].into_iter().take(if one == other { 1 } else { 2 }) {
+                    let acceleration = kinematics.coordinates[of.index()].acceleration;
+                    let load = g.mul(inertance, acceleration);
+                    g.set_name(load, || name.clone());
+                    let slot = &mut self.on_coordinates[on.index()];
+                    *slot = g.sub(*slot, load);
+                }
             }
             ForceLaw::Generalized { coordinate, value } => {
                 let load = values.scalar_at(g, value, kinematics);

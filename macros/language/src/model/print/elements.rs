@@ -3,7 +3,7 @@
 use super::Names;
 use crate::model::elements::Element;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Force, Mechanism, Motion};
+use crate::model::mechanism::{Mechanism, Motion};
 
 impl Mechanism {
     /// Gravity, drives, forces, constraints and curves, in the order of declaration of each kind.
@@ -25,13 +25,23 @@ impl Mechanism {
                 law: format!("at {}", names.scalar(speed)),
             })
         });
-        let of_shaft = |force: &&Force| self.shafts.iter().any(|shaft| shaft.name == force.name);
-        let forces = self.forces.iter().filter(|force| !of_shaft(force));
+        let members = || self.shafts.iter().map(|own| &own.name).chain(self.superelements.iter().map(|own| &own.name));
+        let forces = self.forces.iter().filter(|force| !members().any(|name| *name == force.name));
         let forces = forces.map(|force| element(&force.name, &names.law(&force.law)));
         let shafts = self.shafts.iter().map(|shaft| Element {
             name: shaft.name.to_string(),
             kind: "shaft".to_owned(),
             law: format!("of {} sections with {} stations", shaft.masses.len(), shaft.stations.len()),
+        });
+        let superelements = self.superelements.iter().map(|own| Element {
+            name: own.name.to_string(),
+            kind: "superelement".to_owned(),
+            law: format!(
+                "of {} kg with {} stations, {} internal coordinates",
+                names.scalar(&own.mass),
+                own.stations.len(),
+                own.internal.len()
+            ),
         });
         let constraints = self.constraints.iter();
         let constraints = constraints.map(|constraint| element(&constraint.name, &names.constraint(&constraint.law)));
@@ -45,7 +55,15 @@ impl Mechanism {
                 law: format!("through {points} points from {first} to {}", curve.with_unit(last)),
             }
         });
-        gravity.into_iter().chain(drives).chain(forces).chain(shafts).chain(constraints).chain(curves).collect()
+        gravity
+            .into_iter()
+            .chain(drives)
+            .chain(forces)
+            .chain(shafts)
+            .chain(superelements)
+            .chain(constraints)
+            .chain(curves)
+            .collect()
     }
 }
 

@@ -17,8 +17,11 @@ impl Names<'_> {
             ForceLaw::CoordinateDamper { coordinate: on, damping } => {
                 format!("damper on {} damping {}", coordinate(on), s(damping))
             }
-            ForceLaw::CoordinateInerter { coordinate: on, inertance } => {
+            ForceLaw::CoordinateInerter { coordinates: [on, with], inertance } if on == with => {
                 format!("inerter on {} inertance {}", coordinate(on), s(inertance))
+            }
+            ForceLaw::CoordinateInerter { coordinates: [on, with], inertance } => {
+                format!("inerter on {} and {} inertance {}", coordinate(on), coordinate(with), s(inertance))
             }
             ForceLaw::SpringDamper { from, to, stiffness, damping, length } => format!(
                 "spring_damper from {} to {} stiffness {} damping {} length {}",

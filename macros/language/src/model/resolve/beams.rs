@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use proc_macro2::Ident;
 
-use self::declared::Declared;
+use self::declared::{Declared, Flexible};
 use self::table::Table;
 use super::arguments::Arguments;
 use super::bodies::{BEAM, Row};
@@ -48,7 +48,7 @@ impl Resolver<'_> {
         let arguments = self.arguments(&beam.shape, &SIGNATURE);
         let declared = self.beam_of(body, word, &arguments);
         let is_right = declared.is_some();
-        self.stations.declare(&body.name, declared);
+        self.stations.declare(&body.name, Flexible::Beam(declared.map(Box::new)), [1]);
         is_right.then_some(())
     }
 

@@ -10,7 +10,7 @@ use proc_macro2::Ident;
 
 use self::quantities::Quantities;
 use self::shapes::SYNONYMS;
-pub(super) use self::shapes::{BEAM, Row, SHAFT, SHAPES};
+pub(super) use self::shapes::{BEAM, Row, SHAFT, SHAPES, SUPERELEMENT};
 use super::coordinates;
 use super::joints::kinds::Kind;
 use super::resolver::Resolver;
@@ -85,6 +85,9 @@ impl Resolver<'_> {
         }
         if let Some(shaft) = body.terms.iter().find(|term| term.shape.word == SHAFT.word) {
             return self.shaft(body, shaft).map(|()| Vec::new());
+        }
+        if let Some(term) = body.terms.iter().find(|term| term.shape.word == SUPERELEMENT.word) {
+            return self.superelement(body, term).map(|()| Vec::new());
         }
         if let Some(speed) = &body.spinning {
             let message = "only a `beam` or a `shaft` can spin about its own bent axis";

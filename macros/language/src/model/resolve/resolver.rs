@@ -116,7 +116,7 @@ impl<'a> Resolver<'a> {
     /// doubt.
     pub(super) fn can_move(&self) -> bool {
         let moves = |coordinate: &Declared| !coordinate.motion.is_given() && !coordinate.cut;
-        let bends = ["beam", "shaft"].iter().any(|word| number_of(self.ast, word) > 0);
+        let bends = ["beam", "shaft", "superelement"].iter().any(|word| number_of(self.ast, word) > 0);
         bends || self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
     }
 

@@ -2,12 +2,14 @@
 
 mod at_rest;
 pub(super) mod declared;
-mod stations;
+mod file;
+pub(super) mod stations;
 
 use proc_macro2::Ident;
 
 use self::declared::{Declared, Section};
 use super::arguments::Arguments;
+use super::beams::declared::Flexible;
 use super::beams::table::{Kind, Properties, Table};
 use super::bodies::{Row, SHAFT};
 use super::expected::Expected;
@@ -48,7 +50,8 @@ impl Resolver<'_> {
         let arguments = self.arguments(&shaft.shape, &SIGNATURE);
         let declared = self.shaft_of(body, shaft, &arguments);
         let is_right = declared.is_some();
-        self.stations.declare_shaft(&body.name, declared);
+        let last = declared.as_ref().map_or(1, Declared::last);
+        self.stations.declare(&body.name, Flexible::Shaft(declared.map(Box::new)), [last]);
         is_right.then_some(())
     }
 
@@ -212,13 +215,18 @@ impl Resolver<'_> {
     }
 
     fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Vec<Section>>> {
+        let in_file = match &value.kind {
+            ValueKind::File(file) => Some(self.sections_in_file(value, file)?),
+            _ => None,
+        };
         let rows: Option<Vec<&[Value]>> = match &value.kind {
+            ValueKind::File(_) => in_file.iter().flatten().map(row_of).collect(),
             ValueKind::Vector(rows, None) if !rows.is_empty() => rows.iter().map(row_of).collect(),
             _ => None,
         };
         let Some(rows) = rows else {
             let message = "`sections` is a table: a row of length, outer and inner diameter for each section";
-            let help = "write `sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]]`";
+            let help = "write `sections: [[120 mm, 40 mm], [80 mm, 60 mm, 20 mm]]`, or `sections: \"rotor.csv\"`";
             self.diagnostics.error_with_help(value.extent, message, help);
             return None;
         };

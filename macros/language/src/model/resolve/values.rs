@@ -43,6 +43,12 @@ impl Resolver<'_> {
                 self.diagnostics.error(value.extent, message);
                 None
             }
+            ValueKind::File(name) => {
+                let message = format!("`{name}` is a file, where a value is expected");
+                let help = "tables stand at `sections` of a `shaft`, matrices in a `superelement`";
+                self.diagnostics.error_with_help(value.extent, message, help);
+                None
+            }
             ValueKind::Fraction(_) | ValueKind::Station(_) => {
                 let message = "a fraction of a length is a place on a beam, a station one on a shaft";
                 self.diagnostics.error(value.extent, message);

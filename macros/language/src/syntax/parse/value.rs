@@ -12,6 +12,7 @@ use super::unit::{self, missing_sign};
 use super::words::{GRADE, KEYWORDS};
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
+use crate::include::data_name;
 
 /// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
@@ -124,7 +125,10 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     if grouped.is_none()
         && let Some(literal) = tokens.literal()
     {
-        return number(&literal, tokens);
+        return match data_name(&literal) {
+            Some(name) => built(ValueKind::File(name), literal.span()),
+            None => number(&literal, tokens),
+        };
     }
     let grouped = grouped.or_else(|| tokens.group(Delimiter::Parenthesis));
     if let Some((open, mut content, close)) = grouped {
@@ -211,7 +215,7 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     }
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");
-        let help = "nothing stands in quotes";
+        let help = "nothing stands in quotes but the name of a table, `.csv`, or of a matrix, `.mtx`";
         Box::new(Diagnostic::new(span, message).with_help(help))
     })?;
     // A string of digits can overflow to infinity, but never fails or becomes NaN.
@@ -250,10 +254,10 @@ fn digits_missing<T>(point: Extent) -> Parsed<T> {
 }
 
 /// The value, or an error if it makes the tree too high.
-fn built(kind: ValueKind, extent: Extent) -> Parsed<Value> {
+fn built(kind: ValueKind, extent: impl Into<Extent>) -> Parsed<Value> {
     let value = Value::new(kind, extent);
     if value.height > HIGHEST {
-        return too_large(extent);
+        return too_large(value.extent);
     }
     Ok(value)
 }

@@ -55,7 +55,10 @@ const SYNONYMS: [(&str, &str); 26] = [
 
 /// Words that belong after the name of an item, not before it.
 pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
-    ("body", &["massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid", "beam", "shaft"]),
+    (
+        "body",
+        &["massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid", "beam", "shaft", "superelement"],
+    ),
     ("joint", &["fixed", "revolute", "prismatic", "screw", "cylindrical", "universal", "planar", "spherical", "free"]),
     (
         "force",

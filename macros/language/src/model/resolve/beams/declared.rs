@@ -3,6 +3,7 @@
 use proc_macro2::Ident;
 
 use super::super::shafts::declared::Declared as Shaft;
+use super::super::superelements::declared::Declared as Superelement;
 use super::table::Table;
 use crate::base::legendre::Gauss;
 use crate::model::expression::{Expr, Vector};
@@ -60,29 +61,38 @@ impl Declared {
 
 /// A body with places along it; `None` if it is wrong.
 #[derive(Clone, Debug)]
-pub(super) enum Flexible {
+pub(in crate::model::resolve) enum Flexible {
     Beam(Option<Box<Declared>>),
     Shaft(Option<Box<Shaft>>),
+    Superelement(Option<Box<Superelement>>),
 }
 
-/// The beams and shafts of a declaration and the stations used so far. Each has a station at its tip.
+/// The bodies with places along them and the stations used so far. Each has a station at its tip, a superelement all.
 #[derive(Debug, Default)]
 pub(in crate::model::resolve) struct Stations {
     pub(super) bodies: Vec<(Ident, Flexible)>,
-    /// The beam and the fraction of its length, or the shaft and the number of sections before.
+    /// The beam and the fraction of its length, the shaft and the number of sections before, or the superelement and the
+    /// number of stations before.
     pub(in crate::model::resolve) used: Vec<(usize, f64)>,
 }
 
 impl Stations {
-    pub(super) fn declare(&mut self, name: &Ident, beam: Option<Declared>) {
-        self.used.push((self.bodies.len(), 1.0));
-        self.bodies.push((name.clone(), Flexible::Beam(beam.map(Box::new))));
+    pub(in crate::model::resolve) fn declare(
+        &mut self,
+        name: &Ident,
+        body: Flexible,
+        used: impl IntoIterator<Item = usize>,
+    ) {
+        self.used.extend(used.into_iter().map(|place| (self.bodies.len(), place as f64)));
+        self.bodies.push((name.clone(), body));
     }
 
-    pub(in crate::model::resolve) fn declare_shaft(&mut self, name: &Ident, shaft: Option<Shaft>) {
-        let last = shaft.as_ref().map_or(1, Shaft::last);
-        self.used.push((self.bodies.len(), last as f64));
-        self.bodies.push((name.clone(), Flexible::Shaft(shaft.map(Box::new))));
+    /// The superelements that are right, with their numbers and names.
+    pub(in crate::model::resolve) fn superelements(&self) -> impl Iterator<Item = (usize, &Ident, &Superelement)> {
+        self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
+            Flexible::Superelement(Some(own)) => Some((k, name, &**own)),
+            _ => None,
+        })
     }
 
     /// The shafts that are right, with their numbers and names.
@@ -96,17 +106,19 @@ impl Stations {
     pub(super) fn beams(&self) -> impl Iterator<Item = (usize, &Ident, Option<&Declared>)> {
         self.bodies.iter().enumerate().filter_map(|(k, (name, own))| match own {
             Flexible::Beam(beam) => Some((k, name, beam.as_deref())),
-            Flexible::Shaft(_) => None,
+            Flexible::Shaft(_) | Flexible::Superelement(_) => None,
         })
     }
 
     /// Whether all are right.
     pub(super) fn are_right(&self) -> bool {
-        !self.bodies.iter().any(|(_, own)| matches!(own, Flexible::Beam(None) | Flexible::Shaft(None)))
+        let is_wrong =
+            |own: &Flexible| matches!(own, Flexible::Beam(None) | Flexible::Shaft(None) | Flexible::Superelement(None));
+        !self.bodies.iter().any(|(_, own)| is_wrong(own))
     }
 }
 
-/// The number of bodies of this shape in a declaration: `beam` or `shaft`.
+/// The number of bodies of this shape in a declaration: `beam`, `shaft` or `superelement`.
 pub(in crate::model::resolve) fn number_of(ast: &Ast, word: &str) -> usize {
     let is_such = |item: &&ast::Item| match &item.kind {
         ItemKind::Body(body) => body.terms.iter().any(|term| term.shape.word == word),

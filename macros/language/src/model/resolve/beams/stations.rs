@@ -11,7 +11,7 @@ use crate::base::ids::{BeamId, BodyId, CoordinateId, JointId};
 use crate::base::names::joined;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    self, Beam, Body, Coordinate, CoordinateQuantity, Force, Frame, Joint, Motion, Point, Station,
+    self, Beam, Body, Coordinate, CoordinateQuantity, Force, Frame, Joint, Motion, Point, Station, Superelement,
 };
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
@@ -38,17 +38,21 @@ impl Resolver<'_> {
     /// an ordinary place, with an inner `None` if it is wrong.
     pub(in crate::model::resolve) fn station(&mut self, frame: &Ident, value: &Value) -> Option<Option<Frame>> {
         let beam = self.stations.bodies.iter().position(|(name, _)| name == frame);
-        let shaft = beam.and_then(|beam| match &self.stations.bodies[beam].1 {
-            Flexible::Shaft(shaft) => Some(shaft.as_deref().map(Shaft::last)),
-            Flexible::Beam(_) => None,
-        });
-        if let Some(last) = shaft {
-            return self.station_of_shaft(frame, beam?, last, value);
+        match beam.map(|beam| (beam, &self.stations.bodies[beam].1)) {
+            Some((beam, Flexible::Shaft(shaft))) => {
+                let last = shaft.as_deref().map(Shaft::last);
+                return self.station_of_shaft(frame, beam, last, value);
+            }
+            Some((beam, Flexible::Superelement(own))) => {
+                let count = own.as_ref().map(|own| own.stations.len());
+                return self.station_of_superelement(frame, beam, count, value);
+            }
+            _ => {}
         }
         let fraction = match &value.kind {
             ValueKind::Fraction(fraction) => *fraction,
             ValueKind::Station(_) => {
-                let message = format!("`{frame}` is not a shaft: it has no stations");
+                let message = format!("`{frame}` is no shaft and no superelement: it has no stations");
                 let help = "`at station 4` is the end of the fourth section of a `shaft`";
                 self.diagnostics.error_with_help(value.extent, message, help);
                 return Some(None);
@@ -103,6 +107,33 @@ impl Resolver<'_> {
         Some(self.place_along(frame, shaft, station as f64))
     }
 
+    /// The station that a place means on a superelement; their number is `None` if it is wrong.
+    fn station_of_superelement(
+        &mut self,
+        frame: &Ident,
+        superelement: usize,
+        count: Option<usize>,
+        value: &Value,
+    ) -> Option<Option<Frame>> {
+        let station = match &value.kind {
+            ValueKind::Station(station) => *station as usize,
+            ValueKind::Fraction(_) => 0,
+            ValueKind::Name(word) if word == "tip" || word == "root" => 0,
+            _ => return None,
+        };
+        let Some(count) = count else { return Some(None) };
+        if !(1..=count).contains(&station) {
+            let message = match value.kind {
+                ValueKind::Station(_) => format!("`{frame}` has no station {station}: they count from 1 to {count}"),
+                _ => format!("`{frame}` is a superelement: things stand on its stations only"),
+            };
+            let help = format!("write `{frame} at station 1`; stations are those of its `stations: [..]` in order");
+            self.diagnostics.error_with_help(value.extent, message, help);
+            return Some(None);
+        }
+        Some(self.place_along(frame, superelement, (station - 1) as f64))
+    }
+
     /// The frame of a place that is used: of the root, that of the body.
     fn place_along(&mut self, frame: &Ident, body: usize, place: f64) -> Option<Frame> {
         let root = self.frame(frame);
@@ -136,16 +167,16 @@ impl Resolver<'_> {
         self.ast.items.iter().filter(|item| is(&item.kind)).count()
     }
 
-    /// The beams and shafts with their stations, which are added to the bodies and joints, their coordinates, and what
-    /// shafts do at rest. A beam is split where a load stands on it: its moment has a kink there, which no polynomial has.
-    pub(in crate::model::resolve) fn beams_and_shafts(
+    /// Beams, shafts and superelements with their stations, which are added to the bodies and joints, their coordinates, and
+    /// what they do at rest. A beam is split where a load stands on it: its moment has a kink there, which no polynomial has.
+    pub(in crate::model::resolve) fn flexible_bodies(
         &mut self,
         bodies: &mut Vec<Body>,
         joints: &mut Vec<Joint>,
         points: &[Point],
         forces: &mut Vec<Force>,
         gravity: &Vector,
-    ) -> (Vec<Beam>, Vec<mechanism::Shaft>) {
+    ) -> (Vec<Beam>, Vec<mechanism::Shaft>, Vec<Superelement>) {
         let stations = std::mem::take(&mut self.stations);
         let first = First {
             body: self.items_that(|kind| matches!(kind, ItemKind::Body(_))),
@@ -158,7 +189,7 @@ impl Resolver<'_> {
             && self.declared_coordinates.len() == first.coordinate
             && stations.are_right();
         if !is_whole {
-            return (beams, Vec::new());
+            return (beams, Vec::new(), Vec::new());
         }
         let loaded = self.loaded(joints, points);
         for (index, (beam, fraction)) in stations.used.iter().enumerate() {
@@ -167,6 +198,7 @@ impl Resolver<'_> {
                 Flexible::Beam(_) if *fraction == 1.0 => "tip".to_owned(),
                 Flexible::Beam(_) => format!("station_{index}"),
                 Flexible::Shaft(_) => format!("station_{fraction}"),
+                Flexible::Superelement(_) => format!("station_{}", fraction + 1.0),
             };
             bodies.push(Body { name: self.unused(&format!("{name}_{word}"), name), parts: Vec::new() });
         }
@@ -204,7 +236,8 @@ impl Resolver<'_> {
             }
         }
         let shafts = self.shafts(&stations, first.body, bodies, joints, forces, gravity);
-        (beams, shafts)
+        let superelements = self.superelements(&stations, first.body, bodies, joints, forces, gravity);
+        (beams, shafts, superelements)
     }
 
     /// A tip without a section takes neither a force nor a moment.

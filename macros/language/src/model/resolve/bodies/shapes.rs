@@ -63,6 +63,7 @@ pub(in crate::model::resolve) const SHAPES: &[Row] = &[
         .refusing(&[("density", "the volume of a `rigid` body is not known: give its `mass`")]),
     BEAM,
     SHAFT,
+    SUPERELEMENT,
 ];
 
 /// What a beam takes. It is no shape that others can be added to, so nothing reads it as one.
@@ -109,6 +110,16 @@ pub(in crate::model::resolve) const BEAM: Row = Row::new(
     ("mass", "give a `section` with a density, or `mass_per_length`"),
     ("axis", "the beam runs `along` its axis; `up` is the direction of the height of its section"),
 ]);
+
+/// What a superelement takes; nothing reads it as a shape either.
+pub(in crate::model::resolve) const SUPERELEMENT: Row = Row::new(
+    "superelement",
+    &["mass", "stiffness", "stations"],
+    "superelement(mass: \"casing_mass.mtx\", stiffness: \"casing_stiffness.mtx\", stations: [[0, 0, 0], [0.4 m, 0, 0]])",
+    |_| None,
+)
+.optional(&["damping", "held"])
+.refusing(&[("file", "`eigentol import` makes matrices and a declaration of a file of another program")]);
 
 /// What a shaft takes; nothing reads it as a shape either.
 pub(in crate::model::resolve) const SHAFT: Row = Row::new(

@@ -43,7 +43,7 @@ impl Resolver<'_> {
             CoordinateQuantity::Displacement => Dimension::MASS.into(),
         });
         let inertance = self.coefficient(arguments, "inertance", inertance);
-        Some(ForceLaw::CoordinateInerter { coordinate: target?.0, inertance: inertance? })
+        Some(ForceLaw::CoordinateInerter { coordinates: [target?.0; 2], inertance: inertance? })
     }
 
     /// A free coordinate. A force on a driven coordinate changes no motion, because the drive supplies any force that

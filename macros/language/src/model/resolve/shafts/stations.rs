@@ -31,6 +31,18 @@ const MOTIONS: [(&str, usize, bool); 6] = [
     ("twist", 0, true),
 ];
 
+/// Where a station is.
+pub(in crate::model::resolve) struct Standing<'a> {
+    /// Of the body with stations.
+    pub(in crate::model::resolve) name: &'a Ident,
+    pub(in crate::model::resolve) place: usize,
+    /// How it is counted in names.
+    pub(in crate::model::resolve) number: usize,
+    pub(in crate::model::resolve) body: BodyId,
+    /// In the ground.
+    pub(in crate::model::resolve) offset: Vector,
+}
+
 impl Resolver<'_> {
     /// The shafts, whose stations `bodies` holds already, from the given one on; joints, coordinates and what the shafts do
     /// at rest are added.
@@ -55,10 +67,8 @@ impl Resolver<'_> {
                 .collect();
             places.push((0, BodyId::new(root)));
             places.sort_by_key(|(place, _)| *place);
-            let stations: Vec<ShaftStation> = places
-                .iter()
-                .map(|&(place, body)| self.shaft_station(name, declared, place, body, bodies, joints))
-                .collect();
+            let stations: Vec<ShaftStation> =
+                places.iter().map(|&at| self.shaft_station(name, declared, at, bodies, joints)).collect();
             let mut spans = Vec::new();
             for ends in stations.windows(2) {
                 spans.extend(self.spans(name, declared, [&ends[0], &ends[1]], gravity, forces));
@@ -85,18 +95,40 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         declared: &Declared,
-        place: usize,
-        body: BodyId,
+        (place, body): (usize, BodyId),
         bodies: &[Body],
         joints: &mut Vec<Joint>,
     ) -> ShaftStation {
+        let [bends, twists, stretches] = [declared.bending.is_some(), declared.twists, declared.stretches];
+        let has = [bends, bends, bends, bends, stretches, twists];
+        let motions = std::array::from_fn(|k| {
+            let (word, axis, turns) = MOTIONS[k];
+            has[k].then(|| (word, declared.axes[axis].clone(), turns))
+        });
+        let arm = declared.between(0, place).fold(Expr::Number(0.0), |arm, section| add(arm, section.length.clone()));
+        let along = &declared.axes[0];
+        let offset = std::array::from_fn(|k| add(declared.origin[k].clone(), multiply(arm.clone(), along[k].clone())));
+        let standing = Standing { name, place, number: place, body, offset };
+        self.station_with(standing, motions, bodies, joints)
+    }
+
+    /// A station with these motions: their names, directions, and whether they turn.
+    pub(in crate::model::resolve) fn station_with(
+        &mut self,
+        standing: Standing<'_>,
+        motions: [Option<(&str, Vector, bool)>; 6],
+        bodies: &[Body],
+        joints: &mut Vec<Joint>,
+    ) -> ShaftStation {
+        let Standing { name, place, number, body, offset } = standing;
         let joint = JointId::new(joints.len());
-        let has = [declared.bending.is_some(); 4].into_iter().chain([declared.stretches, declared.twists]);
         let mut coordinates = [None; 6];
         let mut steps = Vec::new();
-        for (k, ((word, axis, turns), _)) in MOTIONS.into_iter().zip(has).enumerate().filter(|(_, (_, has))| *has) {
+        for (slot, (word, axis, turns)) in
+            coordinates.iter_mut().zip(motions).filter_map(|(slot, own)| Some((slot, own?)))
+        {
             let id = CoordinateId::new(self.declared_coordinates.len());
-            let named = joined(&joined(&name.to_string(), word), &place.to_string());
+            let named = joined(&joined(&name.to_string(), word), &number.to_string());
             let (motion, quantity) = match turns {
                 true => (StepMotion::Turn, CoordinateQuantity::Angle),
                 false => (StepMotion::Slide, CoordinateQuantity::Displacement),
@@ -107,12 +139,9 @@ impl Resolver<'_> {
                 quantity,
                 motion: Motion::Free,
             });
-            coordinates[k] = Some(id);
-            steps.push(JointStep { motion, axis: declared.axes[axis].clone(), coordinate: id });
+            *slot = Some(id);
+            steps.push(JointStep { motion, axis, coordinate: id });
         }
-        let arm = declared.between(0, place).fold(Expr::Number(0.0), |arm, section| add(arm, section.length.clone()));
-        let along = &declared.axes[0];
-        let offset = std::array::from_fn(|k| add(declared.origin[k].clone(), multiply(arm.clone(), along[k].clone())));
         joints.push(Joint {
             name: bodies[body.index()].name.clone(),
             word: "station",
@@ -209,7 +238,7 @@ impl Resolver<'_> {
         let both = [half(mass), half(add(rotary, turned))].map(|x| self.shared_of_shaft(name, x));
         let ends = span.ends.iter().flat_map(|end| end.iter().enumerate());
         ends.map(|(k, (coordinate, _))| ForceLaw::CoordinateInerter {
-            coordinate: *coordinate,
+            coordinates: [*coordinate; 2],
             inertance: both[k % 2].clone(),
         })
         .collect()

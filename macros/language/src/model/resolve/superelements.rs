@@ -1,0 +1,201 @@
+//! Superelements: matrices of mass, stiffness and damping, six rows for each station and the others for internal coordinates.
+
+mod checks;
+pub(super) mod declared;
+mod laws;
+
+use std::rc::Rc;
+
+use self::declared::{Declared, Share, Square};
+use super::arguments::Arguments;
+use super::beams::declared::Flexible;
+use super::bodies::{Row, SUPERELEMENT};
+use super::placements::zero;
+use super::resolver::Resolver;
+use super::typed::ValueContext;
+use crate::base::dimension::Dimension;
+use crate::matrix_market;
+use crate::model::expression::{Expr, Vector};
+use crate::model::simplify::add;
+use crate::syntax::ast::{self, Term, Value, ValueKind};
+
+/// Most rows: each two of them are a term in the equations.
+const MOST_ROWS: usize = 256;
+
+impl Resolver<'_> {
+    /// A superelement stands alone, as a shaft does.
+    pub(super) fn superelement(&mut self, body: &ast::Body, term: &Term) -> Option<()> {
+        static SIGNATURE: Row = SUPERELEMENT;
+        let word = &term.shape.word;
+        if body.terms.len() > 1 || term.hole {
+            let message = "`superelement` stands alone: it cannot be part of a sum";
+            let help = "weld another body to a station of it by a `fixed` joint";
+            self.diagnostics.error_with_help(word, message, help);
+            return None;
+        }
+        if let Some(speed) = &body.spinning {
+            let message = "a superelement stands still: its matrices are those of a part that does not spin";
+            let help = "a rotor is a `shaft`, or a `beam` or rigid bodies with a driven joint";
+            self.diagnostics.error_with_help(speed.extent, message, help);
+        }
+        let arguments = self.arguments(&term.shape, &SIGNATURE);
+        let declared = self.superelement_of(body, term, &arguments);
+        let is_right = declared.is_some();
+        let last = declared.as_ref().map_or(0, |own| own.stations.len() - 1);
+        self.stations.declare(&body.name, Flexible::Superelement(declared.map(Box::new)), 1..=last);
+        is_right.then_some(())
+    }
+
+    fn superelement_of(&mut self, body: &ast::Body, term: &Term, given: &Arguments<'_>) -> Option<Declared> {
+        let origin = match &term.placement {
+            Some(placement) if !placement.rotations.is_empty() => {
+                let message = "a superelement is not turned: its directions are those of its matrices";
+                self.diagnostics.error(placement.keyword, message);
+                None
+            }
+            Some(placement) => match &placement.offset {
+                Some(offset) => self.position(offset, "the place of a superelement"),
+                None => Some(zero()),
+            },
+            None => Some(zero()),
+        };
+        let held = match given.get("held") {
+            None => Some(false),
+            Some(value) if matches!(&value.kind, ValueKind::Name(name) if name == "inside") => Some(true),
+            Some(value) => {
+                let message =
+                    "`held` is left out, or `inside` for a part that is fixed to the ground within its matrices";
+                self.diagnostics.error(value.extent, message);
+                None
+            }
+        };
+        let stations = given.get("stations").and_then(|value| self.places_of_stations(value));
+        let mut shares = |name| given.get(name).map(|value| (value.extent, self.shares(value, name == "damping")));
+        let [mass, stiffness, damping] = ["mass", "stiffness", "damping"].map(&mut shares);
+        let ((at_mass, mass), (at_stiffness, stiffness)) = (mass?, stiffness?);
+        let damping = damping.map_or_else(|| Some(Vec::new()), |(_, shares)| shares);
+        let (mass, stiffness, damping) = (mass?, stiffness?, damping?);
+        let (origin, stations, held) = (origin?, stations?, held?);
+        let stations: Vec<Vector> =
+            stations.iter().map(|place| [0, 1, 2].map(|k| add(origin[k].clone(), place[k].clone()))).collect();
+        let declared = Declared::new(stations, mass, stiffness, damping);
+        let is_possible = self.check_superelement(&body.name, &declared, [at_mass, at_stiffness], held);
+        is_possible.then_some(declared)
+    }
+
+    fn places_of_stations(&mut self, value: &Value) -> Option<Vec<Vector>> {
+        match &value.kind {
+            ValueKind::Vector(rows, None) if !rows.is_empty() => {
+                let places: Vec<Option<Vector>> =
+                    rows.iter().map(|place| self.position(place, "the place of a station")).collect();
+                places.into_iter().collect()
+            }
+            _ => {
+                let message = "`stations` is a list of places, one for each six rows of the matrices";
+                let help = "write `stations: [[0, 0, 0], [0.4 m, 0, 0]]`";
+                self.diagnostics.error_with_help(value.extent, message, help);
+                None
+            }
+        }
+    }
+
+    /// A matrix, one with a factor, or a sum of such.
+    fn shares(&mut self, value: &Value, of_damping: bool) -> Option<Vec<Share>> {
+        let is_pair = |parts: &[Value]| {
+            matches!(parts, [file, factor] if is_file(file)
+                && !is_file(factor) && !matches!(factor.kind, ValueKind::Vector(..)))
+        };
+        match &value.kind {
+            ValueKind::File(name) => {
+                let matrix = self.matrix_in_file(value, name)?;
+                Some(vec![Share { factor: Expr::Number(1.0), matrix }])
+            }
+            ValueKind::Vector(parts, None) if is_pair(parts) => {
+                let factor = self.factor_of_matrix(&parts[1], of_damping);
+                let [share] = <[Share; 1]>::try_from(self.shares(&parts[0], of_damping)?).ok()?;
+                Some(vec![Share { factor: factor?, ..share }])
+            }
+            ValueKind::Vector(parts, None) if !parts.is_empty() => {
+                let each: Vec<Option<Vec<Share>>> = parts.iter().map(|part| self.shares(part, of_damping)).collect();
+                let each: Vec<Vec<Share>> = each.into_iter().collect::<Option<_>>()?;
+                let all: Vec<Share> = each.into_iter().flatten().collect();
+                if let Some(other) = all.iter().find(|share| share.matrix.order != all[0].matrix.order) {
+                    let message = format!(
+                        "one of these matrices has {} rows, another {}",
+                        all[0].matrix.order, other.matrix.order
+                    );
+                    self.diagnostics.error(value.extent, message);
+                    return None;
+                }
+                Some(all)
+            }
+            _ => {
+                let message = "a matrix of a superelement is in a Matrix Market file, or a sum of such with factors";
+                let help = "write `stiffness: \"casing_stiffness.mtx\"` or `stiffness: [[\"thin.mtx\", 1 - t], [\"thick.mtx\", t]]`; `eigentol import` reads other formats";
+                self.diagnostics.error_with_help(value.extent, message, help);
+                None
+            }
+        }
+    }
+
+    /// A matrix of damping may have parts in proportion to those of stiffness and mass (Rayleigh).
+    fn factor_of_matrix(&mut self, value: &Value, of_damping: bool) -> Option<Expr> {
+        let (factor, quantity) = self.scalar(value, ValueContext::Parameter)?;
+        let dimension = quantity.dimension();
+        let is_right =
+            dimension == Dimension::NONE || of_damping && [Dimension::TIME, Dimension::RATE].contains(&dimension);
+        if !is_right {
+            let message = "the factor of a matrix is a plain number";
+            let help = "in `damping`, a time multiplies a matrix of stiffness, and 1/s one of mass";
+            self.diagnostics.error_with_help(value.extent, message, help);
+        }
+        is_right.then_some(factor)
+    }
+
+    fn matrix_in_file(&mut self, at: &Value, name: &str) -> Option<Rc<Square>> {
+        let text = self.text_of_file(at, name)?;
+        match matrix_market::read(&text) {
+            Ok(matrix) if matrix.rows > MOST_ROWS => {
+                let message = format!("`{name}` has {} rows, a superelement at most {MOST_ROWS}", matrix.rows);
+                let help = "reduce it to its stations and some modes between them (Craig and Bampton)";
+                self.diagnostics.error_with_help(at.extent, message, help);
+                None
+            }
+            Ok(matrix) => {
+                let square = Square::of(&matrix);
+                if let Some((row, column)) = square.unsymmetric() {
+                    let message = format!(
+                        "the matrix in `{name}` is not symmetric: {:e} in row {}, column {} and {:e} across",
+                        square.entry(row, column),
+                        row + 1,
+                        column + 1,
+                        square.entry(column, row)
+                    );
+                    let help = "a superelement stands still and is linear: its matrices are symmetric";
+                    self.diagnostics.error_with_help(at.extent, message, help);
+                    return None;
+                }
+                Some(Rc::new(square))
+            }
+            Err(mistake) => {
+                let message = format!("{name}, line {}, column {}: {}", mistake.line, mistake.column, mistake.message);
+                self.diagnostics.error(at.extent, message);
+                None
+            }
+        }
+    }
+
+    /// The text of a table or a matrix.
+    pub(super) fn text_of_file(&mut self, at: &Value, name: &str) -> Option<String> {
+        let found = self.ast.files.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone());
+        if found.is_none() {
+            let message = format!("`{name}` has not been read: this declaration came without its files");
+            self.diagnostics.error(at.extent, message);
+        }
+        found
+    }
+}
+
+fn is_file(value: &Value) -> bool {
+    matches!(value.kind, ValueKind::File(_))
+}

@@ -1,0 +1,109 @@
+//! Superelements as declared.
+
+use std::rc::Rc;
+
+use crate::matrix_market::Matrix;
+use crate::model::expression::{Expr, Vector};
+
+/// Rows of a station: along and about x, y and z.
+pub(super) const MOTIONS: usize = 6;
+/// A difference across the diagonal that is rounding, as a part of the greatest entry of both rows.
+const ROUNDED: f64 = 1e-7;
+
+/// A superelement as declared.
+#[derive(Clone, Debug)]
+pub(in crate::model::resolve) struct Declared {
+    /// Places in the ground.
+    pub(in crate::model::resolve) stations: Vec<Vector>,
+    pub(super) mass: Vec<Share>,
+    pub(super) stiffness: Vec<Share>,
+    pub(super) damping: Vec<Share>,
+    /// Whether something is in a row.
+    pub(super) moves: Vec<bool>,
+}
+
+/// A matrix with its factor.
+#[derive(Clone, Debug)]
+pub(super) struct Share {
+    pub(super) factor: Expr,
+    pub(super) matrix: Rc<Square>,
+}
+
+/// A symmetric matrix.
+#[derive(Clone, Debug)]
+pub(in crate::model::resolve) struct Square {
+    pub(super) order: usize,
+    entries: Vec<f64>,
+}
+
+impl Square {
+    pub(super) fn zeros(order: usize) -> Self {
+        Self { order, entries: vec![0.0; order * order] }
+    }
+
+    pub(super) fn of(matrix: &Matrix) -> Self {
+        let mut square = Self::zeros(matrix.rows);
+        matrix.entries.iter().for_each(|(row, column, value)| square.entries[row * matrix.rows + column] = *value);
+        square
+    }
+
+    pub(super) fn entry(&self, row: usize, column: usize) -> f64 {
+        self.entries[row * self.order + column]
+    }
+
+    /// Half the sum of an entry and the one across the diagonal, which differ by rounding.
+    pub(super) fn mean(&self, row: usize, column: usize) -> f64 {
+        0.5 * (self.entry(row, column) + self.entry(column, row))
+    }
+
+    pub(super) fn row(&self, row: usize) -> &[f64] {
+        &self.entries[row * self.order..][..self.order]
+    }
+
+    pub(super) fn add(&mut self, factor: f64, other: &Self) {
+        self.entries.iter_mut().zip(&other.entries).for_each(|(to, from)| *to += factor * from);
+    }
+
+    /// The entry that differs most from the one across the diagonal, if that is not rounding.
+    pub(super) fn unsymmetric(&self) -> Option<(usize, usize)> {
+        let greatest = |row: usize| self.row(row).iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let most: Vec<f64> = (0..self.order).map(greatest).collect();
+        let both = (0..self.order).flat_map(|row| (0..row).map(move |column| (row, column)));
+        let part = |&(row, column): &(usize, usize)| {
+            let apart = (self.entry(row, column) - self.entry(column, row)).abs();
+            if apart == 0.0 { 0.0 } else { apart / most[row].max(most[column]) }
+        };
+        both.max_by(|a, b| part(a).total_cmp(&part(b))).filter(|worst| part(worst) > ROUNDED)
+    }
+}
+
+impl Declared {
+    pub(super) fn new(stations: Vec<Vector>, mass: Vec<Share>, stiffness: Vec<Share>, damping: Vec<Share>) -> Self {
+        let order = mass[0].matrix.order;
+        let matrices = || mass.iter().chain(&stiffness).map(|share| &share.matrix);
+        let is_used = |row: usize| {
+            matrices().any(|matrix| row < matrix.order && matrix.row(row).iter().any(|entry| *entry != 0.0))
+        };
+        let moves = (0..order).map(is_used).collect();
+        Self { stations, mass, stiffness, damping, moves }
+    }
+
+    pub(super) fn order(&self) -> usize {
+        self.moves.len()
+    }
+
+    /// What stands in a row when the part moves as a rigid body along or about x, y, z of a place.
+    pub(super) fn rigid(&self, motion: usize, arms: &[[f64; 3]]) -> Vec<f64> {
+        let mut all = vec![0.0; self.order()];
+        for (station, arm) in arms.iter().enumerate() {
+            let own = &mut all[MOTIONS * station..];
+            own[motion] = 1.0;
+            if let Some(axis) = motion.checked_sub(3) {
+                let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+                own[next] = -arm[last];
+                own[last] = arm[next];
+            }
+        }
+        all
+    }
+}
