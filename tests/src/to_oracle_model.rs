@@ -392,7 +392,7 @@ impl Fixing<'_> {
             declared::ForceLaw::CoordinateDamper { coordinate, damping } => {
                 ForceLaw::Damper { coordinate: self.coordinate(*coordinate), damping: v(damping) }
             }
-            declared::ForceLaw::CoordinateInerter { coordinate, inertance } => {
+            declared::ForceLaw::CoordinateInerter { coordinates: [coordinate, _], inertance } => {
                 ForceLaw::Inerter { coordinate: self.coordinate(*coordinate), inertance: v(inertance) }
             }
             declared::ForceLaw::SpringDamper { from, to, stiffness, damping, length } => ForceLaw::SpringDamper {

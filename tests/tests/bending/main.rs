@@ -3,3 +3,4 @@
 mod beams;
 mod flexible;
 mod shafts;
+mod superelements;

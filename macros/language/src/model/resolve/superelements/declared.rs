@@ -10,6 +10,9 @@ pub(super) const MOTIONS: usize = 6;
 /// A difference across the diagonal that is rounding, as a part of the greatest entry of both rows.
 const ROUNDED: f64 = 1e-7;
 
+/// An entry that is rounding, as a part of the root of both on the diagonal.
+const CANCELLED: f64 = 16.0 * f64::EPSILON;
+
 /// A superelement as declared.
 #[derive(Clone, Debug)]
 pub(in crate::model::resolve) struct Declared {
@@ -44,6 +47,13 @@ impl Square {
     pub(super) fn of(matrix: &Matrix) -> Self {
         let mut square = Self::zeros(matrix.rows);
         matrix.entries.iter().for_each(|(row, column, value)| square.entries[row * matrix.rows + column] = *value);
+        // Modes are orthogonal but for rounding, which would couple all with all.
+        let size: Vec<f64> = (0..square.order).map(|row| square.entry(row, row).abs().sqrt()).collect();
+        for (place, entry) in square.entries.iter_mut().enumerate() {
+            if entry.abs() <= CANCELLED * size[place / matrix.rows] * size[place % matrix.rows] {
+                *entry = 0.0;
+            }
+        }
         square
     }
 

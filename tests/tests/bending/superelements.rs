@@ -1,0 +1,211 @@
+//! Superelements: frames of beams, reduced to their stations and the modes between them (R. R. Craig and M. C. C. Bampton,
+//! AIAA Journal 6, 1968) by a small program of their own, against the whole frame.
+
+mod frame;
+
+use eigentol::{Complex, DesignVariable, Input, Study};
+use nalgebra::{DMatrix, DVector};
+
+use self::frame::{Frame, file};
+use crate::beams::compared::machine;
+
+/// What holds the stations: springs of the last, along the axes; masses on the first.
+const SPRING: [f64; 3] = [3e6, 2e6, 4e6];
+const LOAD: f64 = 5.0;
+const TURNS: f64 = 0.02;
+/// Damping in proportion to stiffness, s, and mass, 1/s.
+const LAG: f64 = 2e-5;
+const DRAG: f64 = 3.0;
+/// So little that the springs of the feet, which bend with the frame, push the same as in its shape at rest, m/s^2.
+const GRAVITY: f64 = 1e-5;
+
+/// A frame with its feet on springs and loads on its first two stations.
+fn text(frame: &Frame, modes: usize) -> String {
+    let [mass, stiffness] = frame.reduced(modes);
+    let places: Vec<String> = frame.stations().iter().map(|[x, y, z]| format!("[{x}, {y}, {z}] m")).collect();
+    let mut feet = String::new();
+    for (k, place) in places.iter().enumerate().skip(2) {
+        let number = k + 1;
+        let [x, y, z] = SPRING;
+        feet += &format!(
+            "point below{k}: ground at {place}; point foot{k}: casing at station {number};
+            force under{k}: bushing(from: below{k}, to: foot{k}, stiffness: [{x}, {y}, {z}] N/m,
+                damping: lag * [{x}, {y}, {z}] N/m);"
+        );
+    }
+    format!(
+        "mechanism Casing {{
+            design wall = 1; design weight = 1; design lag = {LAG} s; design drag = {DRAG} rad/s;
+            gravity {GRAVITY} m/s^2 along -z;
+            body casing: superelement(mass: [[\"mass.mtx\", weight]], stiffness: [[\"stiffness.mtx\", wall]],
+                damping: [[\"stiffness.mtx\", lag * wall], [\"mass.mtx\", drag * weight]],
+                stations: [{}]);
+            body one: rigid(mass: {LOAD} kg, inertia: [{TURNS}, {TURNS}, {TURNS}] kg*m^2);
+            body two: rigid(mass: {LOAD} kg, inertia: [{TURNS}, {TURNS}, {TURNS}] kg*m^2);
+            joint first: fixed from casing at station 1 to one;
+            joint second: fixed from casing at station 2 to two;
+            point hub1: one at [0, 0, 0]; point hub2: two at [0, 0, 0];
+            force air1: drag(at: hub1, damping: drag * {LOAD} kg, turning_damping: drag * {TURNS} kg*m^2);
+            force air2: drag(at: hub2, damping: drag * {LOAD} kg, turning_damping: drag * {TURNS} kg*m^2);
+            {feet}
+            point top: casing at station 1;
+            output sag = position(top).z - {} m;
+        }}
+        {}{}",
+        places.join(", "),
+        frame.stations()[0][2],
+        file("mass.mtx", &mass),
+        file("stiffness.mtx", &stiffness),
+    )
+}
+
+/// The whole frame with the same loads and springs, its elastic part times `wall` and its mass times `weight`.
+fn whole(frame: &Frame, wall: f64, weight: f64) -> [DMatrix<f64>; 2] {
+    let (mut mass, mut stiffness) = (&frame.mass * weight, &frame.stiffness * wall);
+    for station in 0..frame.stations().len() {
+        for k in 0..3 {
+            let row = 6 * station + k;
+            if station < 2 {
+                mass[(row, row)] += LOAD;
+                mass[(row + 3, row + 3)] += TURNS;
+            } else {
+                stiffness[(row, row)] += SPRING[k];
+            }
+        }
+    }
+    [mass, stiffness]
+}
+
+/// Squares of frequencies with their shapes, normalised by mass.
+fn modes_of(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
+    let root = mass.clone().cholesky().expect("a mass").l();
+    let inverse = root.try_inverse().expect("a mass");
+    let eigen = (&inverse * stiffness * inverse.transpose()).symmetric_eigen();
+    let mut modes: Vec<(f64, DVector<f64>)> =
+        (0..mass.nrows()).map(|k| (eigen.eigenvalues[k], inverse.transpose() * eigen.eigenvectors.column(k))).collect();
+    modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    modes
+}
+
+/// With all modes between the stations the reduction is exact: frequencies, damping, sag and derivatives by the factors of both
+/// matrices are those of the whole frame.
+#[test]
+fn a_superelement_is_the_frame_that_it_stands_for() {
+    for seed in 1..5 {
+        let frame = Frame::random(seed);
+        let study = Study::new(machine(&text(&frame, frame.inner())));
+        let [mass, stiffness] = whole(&frame, 1.0, 1.0);
+        let expected = modes_of(&mass, &stiffness);
+        let found = study.modes().expect("modes").modes;
+        let sensitivities = study.sensitivities().expect("derivatives").modes;
+        for ((square, shape), (mode, sensitivity)) in expected.iter().zip(found.iter().zip(&sensitivities)).take(12) {
+            // s^2 + (drag + lag square) s + square = 0
+            let half = 0.5 * (DRAG + LAG * square);
+            let s = Complex::new(-half, (square - half * half).sqrt());
+            assert!((mode.s - s).norm() < 1e-9 * s.norm(), "{seed}: {} {s}", mode.s);
+            let of = |matrix: &DMatrix<f64>| (shape.transpose() * matrix * shape)[0];
+            let [elastic, heavy] = [of(&frame.stiffness), of(&frame.mass)];
+            let slope = 2.0 * s + DRAG + LAG * square;
+            let slopes = [
+                -(1.0 + LAG * s) * elastic / slope,
+                -(s * s + DRAG * s) * heavy / slope,
+                -s * *square / slope,
+                -s / slope,
+            ];
+            for (k, expected) in slopes.into_iter().enumerate() {
+                let found = sensitivity.s().expect("derivatives").by_design[k];
+                let scale = slopes[k].norm().max(1e-6 * s.norm());
+                assert!((found - expected).norm() < 1e-7 * scale, "{seed} {k}: {found} {expected}");
+            }
+        }
+        let mut weight = DVector::zeros(mass.nrows());
+        for station in 0..frame.nodes.len() {
+            weight[6 * station + 2] = -GRAVITY;
+        }
+        let sag = stiffness.clone().lu().solve(&(&mass * weight)).expect("a state")[2];
+        let found = study.outputs().expect("outputs").values[0];
+        assert!((found - sag).abs() < 1e-7 * sag.abs(), "{seed}: {found} {sag}");
+    }
+}
+
+/// Fewer modes are a stiffer part, whose lowest frequencies hardly change.
+#[test]
+fn few_modes_are_enough() {
+    let frame = Frame::random(3);
+    let expected = modes_of(&whole(&frame, 1.0, 1.0)[0], &whole(&frame, 1.0, 1.0)[1]);
+    let study =
+        Study::new(machine(&text(&frame, 6))).design(DesignVariable::new(2), 0.0).design(DesignVariable::new(3), 0.0);
+    let found = study.modes().expect("modes").modes;
+    for ((square, _), mode) in expected.iter().zip(&found).take(5) {
+        let apart = mode.s.im / square.sqrt() - 1.0;
+        assert!((-1e-12..2e-3).contains(&apart), "{} {}", mode.s, square.sqrt());
+    }
+}
+
+/// A pedestal of two masses on springs, within its matrices, is the same as one of bodies and joints; on it stands a shaft.
+#[test]
+fn a_pedestal_within_matrices_is_one_of_bodies() {
+    let pedestal = |number: usize| {
+        format!(
+            "joint y{number}: prismatic(y) from ground to way{number} at [{}, 0, 0] m;
+            joint z{number}: prismatic(z) from way{number} to block{number};
+            body way{number}: massless; body block{number}: rigid(mass: 8 kg, inertia: [1, 1, 1] kg*m^2);
+            force held_y{number}: spring(on: y{number}, stiffness: stiff * 6 MN/m);
+            force held_z{number}: spring(on: z{number}, stiffness: stiff * 9 MN/m);
+            force slow_y{number}: damper(on: y{number}, damping: 100 N*s/m);
+            force slow_z{number}: damper(on: z{number}, damping: 200 N*s/m);
+            point seat{number}: block{number} at [0, 0, 0];",
+            0.5 * number as f64
+        )
+    };
+    let diagonal = |name: &str, numbers: [f64; 2]| {
+        let mut matrix = DMatrix::zeros(12, 12);
+        for row in 0..4 {
+            let row = 6 * (row / 2) + 1 + row % 2;
+            matrix[(row, row)] = numbers[(row % 6 + 1) % 2];
+        }
+        file(name, &matrix)
+    };
+    let matrices = [
+        "body casing: superelement(mass: \"m.mtx\", stiffness: [[\"k.mtx\", stiff]], damping: \"c.mtx\", held: inside,
+            stations: [[0, 0, 0], [0.5, 0, 0] m]);
+        point seat0: casing at station 1; point seat1: casing at station 2;"
+            .to_owned(),
+        diagonal("m.mtx", [8.0, 8.0]) + &diagonal("k.mtx", [6e6, 9e6]) + &diagonal("c.mtx", [100.0, 200.0]),
+    ];
+    let bodies = [pedestal(0) + &pedestal(1), String::new()];
+    let studies = [bodies, matrices].map(|[inside, after]| {
+        let text = format!(
+            "mechanism Stand {{
+                input omega: rad/s; design stiff = 1.1;
+                material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+                gravity 9.81 m/s^2 along -z;
+                body rotor: shaft(along: x, up: z, material: steel, sections: [[200 mm, 40 mm], [300 mm, 55 mm, 20 mm]])
+                    spinning at omega;
+                body disk: disk(mass: 11 kg, radius: 110 mm, axis: x);
+                joint turns: revolute(x) from rotor at station 1 to disk, driven at omega;
+                unbalance heavy: on disk, amount: 100 g*mm;
+                {inside}
+                point journal0: rotor at root; point journal1: rotor at tip;
+                force film0: bushing(from: seat0, to: journal0, stiffness: [0, 20, 30] MN/m, damping: [0, 2, 2] kN*s/m);
+                force film1: bushing(from: seat1, to: journal1, stiffness: [0, 30, 20] MN/m, damping: [0, 2, 3] kN*s/m);
+                point hub: rotor at station 1; output y = position(hub).y;
+            }} {after}"
+        );
+        Study::new(machine(&text)).input(Input::new(0), 300.0)
+    });
+    let [a, b] = studies.each_ref().map(|study| study.modes().expect("modes").modes);
+    for (a, b) in a.iter().zip(&b).take(8) {
+        assert!((a.s - b.s).norm() < 1e-10 * b.s.norm(), "{} {}", a.s, b.s);
+    }
+    let [a, b] = studies.each_ref().map(|study| {
+        let response = study.forced_response().expect("a response").harmonics[0].outputs[0].expect("one");
+        let slope =
+            study.forced_sensitivities().expect("derivatives").harmonics[0].outputs[0].as_ref().expect("one").by_design
+                [0];
+        [response, slope]
+    });
+    for (a, b) in a.iter().zip(&b) {
+        assert!((a - b).norm() < 1e-9 * b.norm(), "{a} {b}");
+    }
+}
