@@ -38,8 +38,8 @@ pub struct Files {
     data: Vec<(String, PathBuf)>,
 }
 
-/// How the names of files among values end.
-const DATA: [&str; 2] = [".csv", ".mtx"];
+/// How the names of files end that are read: tables and matrices.
+pub(crate) const DATA: [&str; 2] = ["csv", "mtx"];
 
 /// The text in quotes.
 pub(crate) fn quoted(literal: &Literal) -> Option<String> {
@@ -49,13 +49,21 @@ pub(crate) fn quoted(literal: &Literal) -> Option<String> {
     }
 }
 
+/// The name of a file among values.
+pub(crate) fn file_name(literal: &Literal) -> Option<String> {
+    quoted(literal).filter(|name| ending(name).is_some() && !name.contains(char::is_whitespace))
+}
+
+/// How the name of a file ends, in small letters.
+pub(crate) fn ending(name: &str) -> Option<String> {
+    let (_, ending) = name.rsplit_once('.')?;
+    let is_word = ending.starts_with(|letter: char| letter.is_ascii_alphabetic());
+    (is_word && ending.len() <= 4).then(|| ending.to_ascii_lowercase())
+}
+
 /// The name of a table or a matrix.
-pub(crate) fn data_name(literal: &Literal) -> Option<String> {
-    let is_data = |name: &String| {
-        let name = name.to_ascii_lowercase();
-        DATA.iter().any(|ending| name.ends_with(ending))
-    };
-    quoted(literal).filter(is_data)
+fn data_name(literal: &Literal) -> Option<String> {
+    file_name(literal).filter(|name| ending(name).is_some_and(|own| DATA.contains(&&*own)))
 }
 
 /// A file that a declaration includes.

@@ -3,7 +3,7 @@
 //!
 //! A case in `tests/diagnostics/*.txt` starts with `=== title`. Under a line, `//^^^ message` marks the columns of the
 //! carets, and `// help: text` and `// in INSTANCE, used at LINE:COLUMN` belong to the mark above it. A case without the word `mechanism` is placed inside an
-//! otherwise correct mechanism: a bar on a hinge `theta`.
+//! otherwise correct mechanism: a bar on a hinge `theta`. Tables and matrices that cases name are in `tests/diagnostics/files`.
 //!
 //! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test language diagnostics::` redraws all cases; review the diff.
 
@@ -12,6 +12,7 @@ use std::path::PathBuf;
 
 use eigentol_compiler::base::diagnostics::Diagnostic;
 use eigentol_compiler::compile;
+use eigentol_compiler::include::Files;
 use eigentol_compiler::mechanics::Limits;
 use proc_macro2::TokenStream;
 
@@ -23,6 +24,11 @@ const BEFORE: &str = "mechanism Test {
 /// The compiler's diagnostics for a declaration.
 fn diagnose(source: &str) -> Vec<Diagnostic> {
     let tokens: TokenStream = source.parse().expect("the case consists of Rust tokens");
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("diagnostics");
+    let tokens = match Files::of(&folder).tokens(tokens, &|text| text.parse().ok(), &mut Vec::new()) {
+        Ok(tokens) => tokens,
+        Err(diagnostic) => return vec![diagnostic],
+    };
     match compile(tokens, Limits::default()) {
         Ok(_) => Vec::new(),
         Err(diagnostics) => diagnostics.iter().cloned().collect(),

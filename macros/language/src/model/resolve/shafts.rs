@@ -45,6 +45,7 @@ impl Resolver<'_> {
             let message = "`shaft` stands alone: it cannot be part of a sum";
             let help = "weld another body to a station of it by a `fixed` joint";
             self.diagnostics.error_with_help(word, message, help);
+            self.stations.declare(&body.name, Flexible::Shaft(None), []);
             return None;
         }
         let arguments = self.arguments(&shaft.shape, &SIGNATURE);

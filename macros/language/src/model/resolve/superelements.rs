@@ -14,6 +14,7 @@ use super::placements::zero;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
+use crate::include::{DATA, ending};
 use crate::matrix_market;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify::add;
@@ -31,6 +32,7 @@ impl Resolver<'_> {
             let message = "`superelement` stands alone: it cannot be part of a sum";
             let help = "weld another body to a station of it by a `fixed` joint";
             self.diagnostics.error_with_help(word, message, help);
+            self.stations.declare(&body.name, Flexible::Superelement(None), []);
             return None;
         }
         if let Some(speed) = &body.spinning {
@@ -189,8 +191,14 @@ impl Resolver<'_> {
     pub(super) fn text_of_file(&mut self, at: &Value, name: &str) -> Option<String> {
         let found = self.ast.files.iter().find(|(known, _)| known == name).map(|(_, text)| text.clone());
         if found.is_none() {
-            let message = format!("`{name}` has not been read: this declaration came without its files");
-            self.diagnostics.error(at.extent, message);
+            if ending(name).is_some_and(|own| DATA.contains(&&*own)) {
+                let message = format!("`{name}` has not been read: this declaration came without its files");
+                self.diagnostics.error(at.extent, message);
+            } else {
+                let message = format!("`{name}` is no table, `.csv`, and no matrix, `.mtx`");
+                let help = "`eigentol import` makes a declaration of files of other programs";
+                self.diagnostics.error_with_help(at.extent, message, help);
+            }
         }
         found
     }

@@ -12,7 +12,7 @@ use super::unit::{self, missing_sign};
 use super::words::{GRADE, KEYWORDS};
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
-use crate::include::data_name;
+use crate::include::file_name;
 
 /// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
@@ -125,7 +125,7 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     if grouped.is_none()
         && let Some(literal) = tokens.literal()
     {
-        return match data_name(&literal) {
+        return match file_name(&literal) {
             Some(name) => built(ValueKind::File(name), literal.span()),
             None => number(&literal, tokens),
         };
@@ -215,7 +215,7 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     }
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");
-        let help = "nothing stands in quotes but the name of a table, `.csv`, or of a matrix, `.mtx`";
+        let help = "nothing stands in quotes but the names of files";
         Box::new(Diagnostic::new(span, message).with_help(help))
     })?;
     // A string of digits can overflow to infinity, but never fails or becomes NaN.

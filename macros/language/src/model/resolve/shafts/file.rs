@@ -5,6 +5,9 @@ use super::super::resolver::Resolver;
 use crate::syntax::ast::{Value, ValueKind};
 use crate::syntax::parse::value_of;
 
+/// Most mistakes that are reported of one table: a file of another kind has nothing else.
+const MOST_MISTAKES: usize = 3;
+
 impl Resolver<'_> {
     /// The rows of a table, each as its cells.
     pub(super) fn sections_in_file(&mut self, at: &Value, name: &str) -> Option<Vec<Value>> {
@@ -28,8 +31,13 @@ impl Resolver<'_> {
             let mut row = Vec::new();
             for (column, cell) in cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
                 let unit = units.as_ref().and_then(|units| units[column].as_ref());
+                let is_bare = cell.parse::<f64>().is_ok_and(|number| number != 0.0);
                 let written = match unit {
-                    Some(unit) if cell.parse::<f64>().is_ok_and(|number| number != 0.0) => format!("{cell} {unit}"),
+                    Some(unit) if is_bare => format!("{cell} {unit}"),
+                    None if is_bare => {
+                        mistakes.push(format!("line {}, column {}: `{cell}` has no unit", k + 1, column + 1));
+                        continue;
+                    }
                     _ => cell.clone(),
                 };
                 match value_of(&written, at.extent) {
@@ -42,7 +50,7 @@ impl Resolver<'_> {
         if rows.is_empty() && mistakes.is_empty() {
             mistakes.push("there is no section".to_owned());
         }
-        for mistake in &mistakes {
+        for mistake in mistakes.iter().take(MOST_MISTAKES) {
             let help = "a row is a section as in `sections: [[120 mm, 40 mm, 20 mm, steel]]`, the first row may be `length [mm], outer [mm], inner [mm], material`";
             self.diagnostics.error_with_help(at.extent, format!("{name}, {mistake}"), help);
         }
