@@ -142,6 +142,46 @@ fn few_modes_are_enough() {
     }
 }
 
+/// A wheel that spins, in axes that do not turn: its matrices are those of a disk on a driven joint.
+#[test]
+fn a_wheel_of_matrices_is_a_disk() {
+    let [mass, across, about] = [7.0, 0.05, 0.09];
+    let mut heavy = DMatrix::zeros(6, 6);
+    for (row, own) in [mass, mass, mass, about, across, across].into_iter().enumerate() {
+        heavy[(row, row)] = own;
+    }
+    // About y: across q'' + about omega r'; about z: across r'' - about omega q'.
+    let mut turning = DMatrix::zeros(6, 6);
+    turning[(4, 5)] = about;
+    turning[(5, 4)] = -about;
+    let matrices = [
+        "body wheel: superelement(mass: \"m.mtx\", stiffness: \"k.mtx\", gyroscopic: [[\"g.mtx\", omega]],
+            stations: [[0, 0, 0]]); point hub: wheel at station 1;"
+            .to_owned(),
+        file("m.mtx", &heavy) + &file("k.mtx", &DMatrix::zeros(6, 6)) + &file("g.mtx", &turning),
+    ];
+    let bodies = [
+        format!(
+            "joint afloat: free(px: x, py: y, pz: z, yaw: z, pitch: y, roll: x) from ground to carrier; body carrier: massless;
+            body wheel: rigid(mass: {mass} kg, inertia: [{about}, {across}, {across}] kg*m^2);
+            joint turns: revolute(x) from carrier to wheel, driven at omega; point hub: carrier at [0, 0, 0];"
+        ),
+        String::new(),
+    ];
+    let [a, b] = [matrices, bodies].map(|[wheel, after]| {
+        let text = format!(
+            "mechanism Wheel {{ input omega: rad/s; {wheel} point seat: ground at [0.1, 0, 0] m;
+                force film: bushing(from: seat, to: hub, stiffness: [2, 3, 4] MN/m, damping: [200, 300, 100] N*s/m,
+                    turning_stiffness: [5, 6, 7] kN*m/rad); }} {after}"
+        );
+        Study::new(machine(&text)).input(Input::new(0), 500.0).modes().expect("modes").modes
+    });
+    assert!(a.len() == 6 && b.len() == 6);
+    for (a, b) in a.iter().zip(&b) {
+        assert!((a.s - b.s).norm() < 1e-11 * b.s.norm(), "{} {}", a.s, b.s);
+    }
+}
+
 /// A pedestal of two masses on springs, within its matrices, is the same as one of bodies and joints; on it stands a shaft.
 #[test]
 fn a_pedestal_within_matrices_is_one_of_bodies() {

@@ -1,4 +1,5 @@
-//! Superelements: matrices of mass, stiffness and damping, six rows for each station and the others for internal coordinates.
+//! Superelements: matrices of mass, stiffness, damping and gyroscopic forces, six rows for each station and the others for
+//! internal coordinates.
 
 mod checks;
 pub(super) mod declared;
@@ -23,6 +24,45 @@ use crate::syntax::ast::{self, Term, Value, ValueKind};
 /// Most rows: each two of them are a term in the equations.
 const MOST_ROWS: usize = 256;
 
+/// What a matrix of a superelement does.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    Mass,
+    Stiffness,
+    Damping,
+    Gyroscopic,
+}
+
+impl Role {
+    const ALL: [(&'static str, Self); 4] = [
+        ("mass", Self::Mass),
+        ("stiffness", Self::Stiffness),
+        ("damping", Self::Damping),
+        ("gyroscopic", Self::Gyroscopic),
+    ];
+
+    /// Whether a factor may have this dimension, and what it may be. Damping may have parts in proportion to stiffness and mass
+    /// (Rayleigh); what spins, parts that grow with its speed.
+    fn takes(self, factor: Dimension) -> (bool, &'static str) {
+        let (more, words): (&[Dimension], _) = match self {
+            Self::Mass => (&[], "of mass is multiplied by a plain number"),
+            Self::Stiffness => (&[], "of stiffness is multiplied by a plain number"),
+            Self::Damping => (
+                &[Dimension::TIME, Dimension::RATE],
+                "is damping by a plain number, or one of stiffness by a time, or one of mass by 1/s",
+            ),
+            Self::Gyroscopic => (&[Dimension::RATE], "is one of gyroscopic forces at 1 rad/s, multiplied by the speed"),
+        };
+        let is_right = factor == Dimension::NONE && self != Self::Gyroscopic || more.contains(&factor);
+        (is_right, words)
+    }
+
+    /// What an entry across the diagonal is to be multiplied by to be the same.
+    fn across(self) -> f64 {
+        if self == Self::Gyroscopic { -1.0 } else { 1.0 }
+    }
+}
+
 impl Resolver<'_> {
     /// A superelement stands alone, as a shaft does.
     pub(super) fn superelement(&mut self, body: &ast::Body, term: &Term) -> Option<()> {
@@ -36,8 +76,9 @@ impl Resolver<'_> {
             return None;
         }
         if let Some(speed) = &body.spinning {
-            let message = "a superelement stands still: its matrices are those of a part that does not spin";
-            let help = "a rotor is a `shaft`, or a `beam` or rigid bodies with a driven joint";
+            let message = "the spinning of a superelement is in its matrices";
+            let help =
+                "write `gyroscopic: [[\"wheel_gyroscopic.mtx\", omega]]` for a round part in axes that do not turn";
             self.diagnostics.error_with_help(speed.extent, message, help);
         }
         let arguments = self.arguments(&term.shape, &SIGNATURE);
@@ -72,16 +113,19 @@ impl Resolver<'_> {
             }
         };
         let stations = given.get("stations").and_then(|value| self.places_of_stations(value));
-        let mut shares = |name| given.get(name).map(|value| (value.extent, self.shares(value, name == "damping")));
-        let [mass, stiffness, damping] = ["mass", "stiffness", "damping"].map(&mut shares);
-        let ((at_mass, mass), (at_stiffness, stiffness)) = (mass?, stiffness?);
-        let damping = damping.map_or_else(|| Some(Vec::new()), |(_, shares)| shares);
-        let (mass, stiffness, damping) = (mass?, stiffness?, damping?);
+        let shares = Role::ALL
+            .map(|(name, role)| given.get(name).map_or_else(|| Some(Vec::new()), |value| self.shares(value, role)));
+        let [mass, stiffness, damping, gyroscopic] = shares;
+        let shares = [mass?, stiffness?, damping?, gyroscopic?];
+        let at = |name| given.get(name).map_or((&term.shape.word).into(), |value: &Value| value.extent);
         let (origin, stations, held) = (origin?, stations?, held?);
         let stations: Vec<Vector> =
             stations.iter().map(|place| [0, 1, 2].map(|k| add(origin[k].clone(), place[k].clone()))).collect();
-        let declared = Declared::new(stations, mass, stiffness, damping);
-        let is_possible = self.check_superelement(&body.name, &declared, [at_mass, at_stiffness], held);
+        if shares[0].is_empty() || shares[1].is_empty() {
+            return None;
+        }
+        let declared = Declared::new(stations, shares);
+        let is_possible = self.check_superelement(&body.name, &declared, &at, held);
         is_possible.then_some(declared)
     }
 
@@ -102,23 +146,23 @@ impl Resolver<'_> {
     }
 
     /// A matrix, one with a factor, or a sum of such.
-    fn shares(&mut self, value: &Value, of_damping: bool) -> Option<Vec<Share>> {
+    fn shares(&mut self, value: &Value, role: Role) -> Option<Vec<Share>> {
         let is_pair = |parts: &[Value]| {
             matches!(parts, [file, factor] if is_file(file)
                 && !is_file(factor) && !matches!(factor.kind, ValueKind::Vector(..)))
         };
         match &value.kind {
             ValueKind::File(name) => {
-                let matrix = self.matrix_in_file(value, name)?;
+                let matrix = self.matrix_in_file(value, name, role)?;
                 Some(vec![Share { factor: Expr::Number(1.0), matrix }])
             }
             ValueKind::Vector(parts, None) if is_pair(parts) => {
-                let factor = self.factor_of_matrix(&parts[1], of_damping);
-                let [share] = <[Share; 1]>::try_from(self.shares(&parts[0], of_damping)?).ok()?;
+                let factor = self.factor_of_matrix(&parts[1], role);
+                let [share] = <[Share; 1]>::try_from(self.shares(&parts[0], role)?).ok()?;
                 Some(vec![Share { factor: factor?, ..share }])
             }
             ValueKind::Vector(parts, None) if !parts.is_empty() => {
-                let each: Vec<Option<Vec<Share>>> = parts.iter().map(|part| self.shares(part, of_damping)).collect();
+                let each: Vec<Option<Vec<Share>>> = parts.iter().map(|part| self.shares(part, role)).collect();
                 let each: Vec<Vec<Share>> = each.into_iter().collect::<Option<_>>()?;
                 let all: Vec<Share> = each.into_iter().flatten().collect();
                 if let Some(other) = all.iter().find(|share| share.matrix.order != all[0].matrix.order) {
@@ -140,21 +184,17 @@ impl Resolver<'_> {
         }
     }
 
-    /// A matrix of damping may have parts in proportion to those of stiffness and mass (Rayleigh).
-    fn factor_of_matrix(&mut self, value: &Value, of_damping: bool) -> Option<Expr> {
+    fn factor_of_matrix(&mut self, value: &Value, role: Role) -> Option<Expr> {
         let (factor, quantity) = self.scalar(value, ValueContext::Parameter)?;
-        let dimension = quantity.dimension();
-        let is_right =
-            dimension == Dimension::NONE || of_damping && [Dimension::TIME, Dimension::RATE].contains(&dimension);
+        let (is_right, words) = role.takes(quantity.dimension());
         if !is_right {
-            let message = "the factor of a matrix is a plain number";
-            let help = "in `damping`, a time multiplies a matrix of stiffness, and 1/s one of mass";
-            self.diagnostics.error_with_help(value.extent, message, help);
+            let message = format!("a matrix {words}, this is {}", quantity.dimension().describe());
+            self.diagnostics.error(value.extent, message);
         }
         is_right.then_some(factor)
     }
 
-    fn matrix_in_file(&mut self, at: &Value, name: &str) -> Option<Rc<Square>> {
+    fn matrix_in_file(&mut self, at: &Value, name: &str, role: Role) -> Option<Rc<Square>> {
         let text = self.text_of_file(at, name)?;
         match matrix_market::read(&text) {
             Ok(matrix) if matrix.rows > MOST_ROWS => {
@@ -164,16 +204,17 @@ impl Resolver<'_> {
                 None
             }
             Ok(matrix) => {
-                let square = Square::of(&matrix);
+                let square = Square::of(&matrix, role.across());
                 if let Some((row, column)) = square.unsymmetric() {
                     let message = format!(
-                        "the matrix in `{name}` is not symmetric: {:e} in row {}, column {} and {:e} across",
+                        "the matrix in `{name}` is not {}: {:e} in row {}, column {} and {:e} across",
+                        if role == Role::Gyroscopic { "skew-symmetric" } else { "symmetric" },
                         square.entry(row, column),
                         row + 1,
                         column + 1,
                         square.entry(column, row)
                     );
-                    let help = "a superelement stands still and is linear: its matrices are symmetric";
+                    let help = "mass, stiffness and damping are symmetric, gyroscopic forces change their sign across";
                     self.diagnostics.error_with_help(at.extent, message, help);
                     return None;
                 }

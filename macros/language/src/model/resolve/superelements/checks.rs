@@ -19,49 +19,50 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         declared: &Declared,
-        at: [Extent; 2],
+        at: &dyn Fn(&'static str) -> Extent,
         is_held: bool,
     ) -> bool {
         let wrong = self.wrong_with(name, declared, is_held);
         if let Some((matrix, message, help)) = wrong {
-            self.diagnostics.error_with_help(at[matrix], message, help);
+            self.diagnostics.error_with_help(at(matrix), message, help);
             return false;
         }
         true
     }
 
-    /// What is wrong: 0 with the mass, 1 with the stiffness.
-    fn wrong_with(&self, name: &Ident, declared: &Declared, is_held: bool) -> Option<(usize, String, String)> {
+    /// What is wrong with which matrix, and advice.
+    fn wrong_with(&self, name: &Ident, declared: &Declared, is_held: bool) -> Option<(&'static str, String, String)> {
         let order = declared.order();
         let rows = MOTIONS * declared.stations.len();
         if order < rows {
             let message = format!("the matrices have {order} rows; {} stations have {rows}", declared.stations.len());
             let help = "each station has six, along and about x, y, z; fill those that nothing moves with zeros";
-            return Some((0, message, help.into()));
+            return Some(("mass", message, help.into()));
         }
-        for (shares, what) in [(&declared.stiffness, "stiffness"), (&declared.damping, "damping")] {
+        let [damping, gyroscopic] = &declared.damping;
+        let all = [(&declared.stiffness, "stiffness"), (damping, "damping"), (gyroscopic, "gyroscopic")];
+        for (shares, what) in all {
             if let Some(share) = shares.iter().find(|share| share.matrix.order != order) {
-                let message =
-                    format!("the mass of `{name}` has {order} rows, a matrix of its {what} {}", share.matrix.order);
-                return Some((1, message, "matrices of one part have the same rows in the same order".into()));
+                let message = format!("the mass of `{name}` has {order} rows, this matrix {}", share.matrix.order);
+                return Some((what, message, "matrices of one part have the same rows in the same order".into()));
             }
         }
         let [mass, stiffness] = [&declared.mass, &declared.stiffness].map(|shares| self.at_nominal(shares, order));
         let arms: Vec<[f64; 3]> =
             declared.stations.iter().map(|place| place.each_ref().map(|x| self.nominal_of(x))).collect();
         if !is_held && let Some(wrong) = resists(declared, &stiffness, &arms) {
-            return Some((1, wrong.0, wrong.1));
+            return Some(("stiffness", wrong.0, wrong.1));
         }
         if let Some(message) = masses_differ(declared, &mass, &arms) {
             let help = "rows are along x, y, z and about x, y, z of each station in turn, then what is internal";
-            return Some((0, message, help.into()));
+            return Some(("mass", message, help.into()));
         }
-        for (k, matrix, what) in [(0, &mass, "mass"), (1, &stiffness, "stiffness")] {
+        for (matrix, what) in [(&mass, "mass"), (&stiffness, "stiffness")] {
             if let Some(row) = not_positive(matrix) {
                 let message =
                     format!("the {what} of `{name}` is not positive: row {} makes its energy negative", row + 1);
                 let help = "check the sign and the order of rows and columns";
-                return Some((k, message, help.into()));
+                return Some((what, message, help.into()));
             }
         }
         None

@@ -20,7 +20,8 @@ pub(in crate::model::resolve) struct Declared {
     pub(in crate::model::resolve) stations: Vec<Vector>,
     pub(super) mass: Vec<Share>,
     pub(super) stiffness: Vec<Share>,
-    pub(super) damping: Vec<Share>,
+    /// Damping, and gyroscopic forces.
+    pub(super) damping: [Vec<Share>; 2],
     /// Whether something is in a row.
     pub(super) moves: Vec<bool>,
 }
@@ -32,20 +33,22 @@ pub(super) struct Share {
     pub(super) matrix: Rc<Square>,
 }
 
-/// A symmetric matrix.
+/// A symmetric or skew-symmetric matrix.
 #[derive(Clone, Debug)]
 pub(in crate::model::resolve) struct Square {
     pub(super) order: usize,
+    /// The sign of an entry across the diagonal.
+    across: f64,
     entries: Vec<f64>,
 }
 
 impl Square {
     pub(super) fn zeros(order: usize) -> Self {
-        Self { order, entries: vec![0.0; order * order] }
+        Self { order, across: 1.0, entries: vec![0.0; order * order] }
     }
 
-    pub(super) fn of(matrix: &Matrix) -> Self {
-        let mut square = Self::zeros(matrix.rows);
+    pub(super) fn of(matrix: &Matrix, across: f64) -> Self {
+        let mut square = Self { across, ..Self::zeros(matrix.rows) };
         matrix.entries.iter().for_each(|(row, column, value)| square.entries[row * matrix.rows + column] = *value);
         // Modes are orthogonal but for rounding, which would couple all with all.
         let size: Vec<f64> = (0..square.order).map(|row| square.entry(row, row).abs().sqrt()).collect();
@@ -63,7 +66,7 @@ impl Square {
 
     /// Half the sum of an entry and the one across the diagonal, which differ by rounding.
     pub(super) fn mean(&self, row: usize, column: usize) -> f64 {
-        0.5 * (self.entry(row, column) + self.entry(column, row))
+        0.5 * (self.entry(row, column) + self.across * self.entry(column, row))
     }
 
     pub(super) fn row(&self, row: usize) -> &[f64] {
@@ -78,9 +81,9 @@ impl Square {
     pub(super) fn unsymmetric(&self) -> Option<(usize, usize)> {
         let greatest = |row: usize| self.row(row).iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let most: Vec<f64> = (0..self.order).map(greatest).collect();
-        let both = (0..self.order).flat_map(|row| (0..row).map(move |column| (row, column)));
+        let both = (0..self.order).flat_map(|row| (0..=row).map(move |column| (row, column)));
         let part = |&(row, column): &(usize, usize)| {
-            let apart = (self.entry(row, column) - self.entry(column, row)).abs();
+            let apart = (self.entry(row, column) - self.across * self.entry(column, row)).abs();
             if apart == 0.0 { 0.0 } else { apart / most[row].max(most[column]) }
         };
         both.max_by(|a, b| part(a).total_cmp(&part(b))).filter(|worst| part(worst) > ROUNDED)
@@ -88,14 +91,15 @@ impl Square {
 }
 
 impl Declared {
-    pub(super) fn new(stations: Vec<Vector>, mass: Vec<Share>, stiffness: Vec<Share>, damping: Vec<Share>) -> Self {
+    /// Of shares of mass, stiffness, damping and gyroscopic forces; the first two have some.
+    pub(super) fn new(stations: Vec<Vector>, [mass, stiffness, damping, gyroscopic]: [Vec<Share>; 4]) -> Self {
         let order = mass[0].matrix.order;
         let matrices = || mass.iter().chain(&stiffness).map(|share| &share.matrix);
         let is_used = |row: usize| {
             matrices().any(|matrix| row < matrix.order && matrix.row(row).iter().any(|entry| *entry != 0.0))
         };
         let moves = (0..order).map(is_used).collect();
-        Self { stations, mass, stiffness, damping, moves }
+        Self { stations, mass, stiffness, damping: [damping, gyroscopic], moves }
     }
 
     pub(super) fn order(&self) -> usize {

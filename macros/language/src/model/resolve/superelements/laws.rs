@@ -107,9 +107,12 @@ fn laws(declared: &Declared, coordinates: &[Option<CoordinateId>], gravity: &Vec
         if energy != Expr::Number(0.0) {
             laws.push(ForceLaw::Potential { energy: multiply(Expr::Coordinate(id), energy) });
         }
-        let resistance = sum_over(&declared.damping, |matrix| {
-            rows().map(|(column, other)| (matrix.mean(row, column), Expr::Rate(other))).collect()
-        });
+        let resists = |shares: &[Share]| {
+            sum_over(shares, |matrix| {
+                rows().map(|(column, other)| (matrix.mean(row, column), Expr::Rate(other))).collect()
+            })
+        };
+        let resistance = declared.damping.iter().map(|shares| resists(shares)).fold(Expr::Number(0.0), add);
         if resistance != Expr::Number(0.0) {
             laws.push(ForceLaw::Generalized { coordinate: id, value: negate(resistance) });
         }
