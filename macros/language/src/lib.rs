@@ -6,6 +6,7 @@
 
 pub mod base;
 pub mod include;
+pub mod matrix_market;
 #[cfg(feature = "locations")]
 pub mod mistakes;
 pub mod model;
