@@ -68,6 +68,13 @@ impl Destination {
         }
     }
 
+    /// A file of this name beside the file, if there is one.
+    pub(crate) fn beside(&self, name: &str) -> Option<Self> {
+        let path = self.output.as_deref()?;
+        let is_file = matches!(Target::of(path), Target::File { .. });
+        is_file.then(|| Self { output: Some(path.with_file_name(name)) })
+    }
+
     /// The path of the file, if any.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.output.as_deref()

@@ -1,0 +1,114 @@
+//! The part that a file describes: its stations, what the rows of its matrices are, and its declaration.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write as _;
+
+use eigentol_compiler::matrix_market::Mistake;
+
+use super::assembly::{Row, in_order, rows};
+use super::files::Found;
+use super::json::{self, At, File};
+use super::matrix::Label;
+use super::units::Scales;
+use super::{Wrong, first, identifier};
+
+pub(super) struct Part<'a> {
+    text: &'a str,
+    pub(super) file: File<'a>,
+    pub(super) scales: Scales,
+    /// Stations by their nodes.
+    stations: HashMap<i64, usize>,
+    unknowns: Option<(At<'a>, Vec<Label>)>,
+}
+
+impl<'a> Part<'a> {
+    pub(super) fn read(text: &'a str) -> Result<Self, Mistake> {
+        let file = json::read(text)?;
+        if file.stations.is_empty() {
+            return Err(first("there are no stations: a superelement is held and loaded at one or more"));
+        }
+        let mut stations = HashMap::new();
+        for (k, station) in file.stations.iter().enumerate() {
+            let Some(at) = station.node else { continue };
+            if let Some(other) = stations.insert(at.get(text)?, k) {
+                return Err(at.mistake(text, format!("station {} is at this node already", other + 1)));
+            }
+        }
+        let scales = Scales::of(&file.units, text)?;
+        let unknowns = file.unknowns.map(|at| Ok((at, json::unknowns(at, text)?))).transpose()?;
+        Ok(Self { text, file, scales, stations, unknowns })
+    }
+
+    /// What the rows of each matrix are.
+    pub(super) fn rows(&self, all: &[Found], here: impl Fn(Mistake) -> Wrong) -> Result<Vec<Vec<Row>>, Wrong> {
+        let stations = self.file.stations.len();
+        let is_said = all.iter().any(|found| found.matrix.labels.is_some());
+        let of = |found: &Found| {
+            let (word, order) = (found.role.word, found.matrix.order);
+            match (&found.matrix.labels, &self.unknowns) {
+                (Some(labels), _) => rows(labels, &self.stations).map_err(|message| found.wrong(message)),
+                (None, Some((_, labels))) if order != labels.len() => {
+                    Err(found.wrong(format!("the {word} has {order} rows, and `unknowns` lists {}", labels.len())))
+                }
+                (None, Some((at, labels))) => {
+                    rows(labels, &self.stations).map_err(|message| here(at.mistake(self.text, message)))
+                }
+                (None, None) if is_said || order < 6 * stations => {
+                    Err(found.wrong(format!("what are the {order} rows of the {word}? List the `unknowns`")))
+                }
+                (None, None) if order != all[0].matrix.order => {
+                    let (other, rows) = (all[0].role.word, all[0].matrix.order);
+                    Err(found.wrong(format!(
+                        "the {word} has {order} rows, and the {other} {rows}: give matrices of one order"
+                    )))
+                }
+                (None, None) => Ok(in_order(order, stations)),
+            }
+        };
+        all.iter().map(of).collect()
+    }
+
+    /// Notes on motions of stations that no matrix has.
+    pub(super) fn lacking(&self, listed: &HashSet<Row>) -> Result<Vec<String>, Mistake> {
+        let mut notes = Vec::new();
+        for (k, station) in self.file.stations.iter().enumerate() {
+            let count = (6 * k..6 * k + 6).filter(|row| listed.contains(&Row::Station(*row))).count();
+            let name = k + 1;
+            if count == 0 {
+                let message = format!("no matrix has a row of station {name}: give a node that was retained");
+                return Err(station.node.map_or_else(|| first(&message), |at| at.mistake(self.text, &message)));
+            }
+            if count < 6 {
+                notes.push(format!(
+                    "station {name} has {count} of its 6 motions in the files: the rows of the others are zero"
+                ));
+            }
+        }
+        Ok(notes)
+    }
+
+    pub(super) fn declaration(&self, mechanism: Option<&str>, arguments: &str) -> String {
+        let mut nodes: HashMap<usize, i64> = HashMap::new();
+        nodes.extend(self.stations.iter().map(|(node, station)| (*station, *node)));
+        let (mut comments, mut places) = (String::new(), Vec::new());
+        for (k, station) in self.file.stations.iter().enumerate() {
+            let name = station.name.as_deref().unwrap_or_default().replace(char::is_control, " ");
+            let node = nodes.get(&k).map_or_else(String::new, |node| format!(" node {node}"));
+            // Writing to a string cannot fail.
+            let _ = writeln!(comments, "    // station {}: {}", k + 1, format!("{name}{node}").trim_start());
+            places.push(format!("[{}]", station.position.map(|x| format!("{} m", self.scales.metres(x))).join(", ")));
+        }
+        let body = identifier(&self.file.superelement);
+        let mechanism = mechanism.map_or_else(|| capitalised(&body), str::to_owned);
+        format!(
+            "/// A superelement from a finite element program.\nmechanism {mechanism} {{\n{comments}    \
+             body {body}: superelement({arguments}stations: [{}]);\n}}\n",
+            places.join(", ")
+        )
+    }
+}
+
+fn capitalised(name: &str) -> String {
+    let words = name.split('_').filter(|word| !word.is_empty());
+    words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]).collect()
+}
