@@ -68,11 +68,11 @@ impl Destination {
         }
     }
 
-    /// A file of this name beside the file, if there is one.
+    /// A file of this name beside the file, unless that is a device or a link.
     pub(crate) fn beside(&self, name: &str) -> Option<Self> {
-        let path = self.output.as_deref()?;
-        let is_file = matches!(Target::of(path), Target::File { .. });
-        is_file.then(|| Self { output: Some(path.with_file_name(name)) })
+        let output = self.output.as_deref()?;
+        let is_file = matches!(Target::of(output), Target::File { path, .. } if path == output);
+        is_file.then(|| Self { output: Some(output.with_file_name(name)) })
     }
 
     /// The path of the file, if any.

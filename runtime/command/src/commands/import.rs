@@ -122,21 +122,7 @@ impl Import {
             || Failure::usage("a superelement has matrices beside it: give --output", "as in `--output casing.part`");
         let output = self.place.path().ok_or_else(beside)?;
         let stem = identifier(&output.file_stem().unwrap_or_default().to_string_lossy());
-        let imported = superelement::import((&file.name, &file.text), folder, &stem, self.name.as_deref());
-        let imported = imported.map_err(|wrong| {
-            let (line, column) = (wrong.mistake.line, wrong.mistake.column);
-            Failure::Declaration {
-                name: wrong.name,
-                text: wrong.text,
-                mistakes: vec![Mistake {
-                    start: (line, column),
-                    end: (line, column + 1),
-                    message: wrong.mistake.message,
-                    help: None,
-                    file: None,
-                }],
-            }
-        })?;
+        let imported = superelement::import(file, folder, &stem, self.name.as_deref())?;
         let mut writes = Vec::new();
         for (name, text) in &imported.matrices {
             writes.push((self.place.beside(name).ok_or_else(beside)?, text));

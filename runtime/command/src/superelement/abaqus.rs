@@ -46,7 +46,9 @@ pub(super) fn is_it(text: &str) -> bool {
     let all = sections(text);
     let mut data = all.iter().flat_map(Section::data);
     all.iter().any(|section| section.is("*USERELEMENT") || section.is("*MATRIX"))
-        || data.next().is_some_and(|words| matches!(words.len(), 3 | 5))
+        || data
+            .next()
+            .is_some_and(|words| [3, 5].contains(&words.len()) && words.iter().all(|word| word.number().is_ok()))
 }
 
 pub(super) fn read(text: &str, wanted: Wanted<'_>) -> Result<Matrix, Mistake> {

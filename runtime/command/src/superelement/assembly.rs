@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use super::matrix::{Label, Matrix};
 use eigentol_compiler::matrix_market::{self, MOST_ROWS, summed};
+
+use super::matrix::{Label, Matrix};
 
 /// What a row is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -22,6 +22,8 @@ use eigentol_compiler::matrix_market::{MOST_ROWS, Mistake, write};
 use self::assembly::{Order, Row};
 use self::files::Files;
 use self::part::Part;
+use crate::declaration::Declaration;
+use crate::failure::Failure;
 
 /// A declaration, and what belongs beside it.
 pub(crate) struct Superelement {
@@ -33,47 +35,48 @@ pub(crate) struct Superelement {
     pub(crate) read: Vec<PathBuf>,
 }
 
-/// A mistake in one of the files.
-pub(crate) struct Wrong {
-    pub(crate) name: String,
-    pub(crate) text: String,
-    pub(crate) mistake: Mistake,
-}
-
 /// Whether a text describes a superelement.
 pub(crate) fn is_superelement(text: &str) -> bool {
     text.trim_start().starts_with('{') && text.contains("\"superelement\"")
 }
 
-/// Translates the superelement that a file of this name and text describes; its matrices are in `folder`, and the names of what
-/// belongs beside the declaration begin with `stem`.
+/// Translates the superelement that a file describes; its matrices are in `folder`, and the names of what belongs beside the
+/// declaration begin with `stem`.
 pub(crate) fn import(
-    (name, text): (&str, &str),
+    file: &Declaration,
     folder: &Path,
     stem: &str,
     mechanism: Option<&str>,
-) -> Result<Superelement, Wrong> {
-    let here = |mistake| Wrong { name: name.to_owned(), text: text.to_owned(), mistake };
-    let part = Part::read(text).map_err(here)?;
-    let mut files = Files::of((name, text), folder);
+) -> Result<Superelement, Failure> {
+    let part = Part::read(&file.text).map_err(file.wrong())?;
+    let mut files = Files { file, folder, read: Vec::new() };
     let found = files.matrices(&part.file)?;
-    let rows = part.rows(&found, here)?;
+    let rows = part.rows(&found, file)?;
     let listed: HashSet<Row> = rows.iter().flatten().copied().collect();
-    let notes = part.lacking(&listed).map_err(here)?;
+    let notes = part.lacking(&listed).map_err(file.wrong())?;
     let order = Order::of(part.file.stations.len(), listed);
-    let order = order.ok_or_else(|| here(first(format!("there are more than {MOST_ROWS} rows: retain fewer"))))?;
+    let many = || first(format!("there are more than {MOST_ROWS} rows: retain fewer"));
+    let order = order.ok_or_else(many).map_err(file.wrong())?;
     let (mut matrices, mut arguments) = (Vec::new(), String::new());
     for (found, rows) in found.iter().zip(&rows) {
         let word = found.role.word;
         let (factor, length) = (part.scales.of_matrix(found.role), part.scales.length);
         let whole = order.assembled(&found.matrix, rows, factor, length);
-        let whole = whole.ok_or_else(|| found.wrong(format!("the {word} is too large in SI: look at the units")))?;
-        let file = format!("{stem}_{word}.mtx");
-        arguments += &format!("{word}: \"{file}\", ");
-        matrices.push((file, write(&whole)));
+        let large = || first(format!("the {word} is too large in SI: look at the units"));
+        let whole = whole.ok_or_else(large).map_err(found.file.wrong())?;
+        let beside = format!("{stem}_{word}.mtx");
+        arguments += &format!("{word}: \"{beside}\", ");
+        matrices.push((beside, write(&whole)));
     }
     let declaration = part.declaration(mechanism, &arguments);
     Ok(Superelement { declaration, matrices, notes, read: files.read })
+}
+
+impl Declaration {
+    /// The failure that a mistake in this file is.
+    fn wrong(&self) -> impl Fn(Mistake) -> Failure {
+        |mistake| self.refused(vec![mistake.into()])
+    }
 }
 
 /// A mistake of a whole file.

@@ -10,7 +10,9 @@ use super::files::Found;
 use super::json::{self, At, File};
 use super::matrix::Label;
 use super::units::Scales;
-use super::{Wrong, first, identifier};
+use super::{first, identifier};
+use crate::declaration::Declaration;
+use crate::failure::Failure;
 
 pub(super) struct Part<'a> {
     text: &'a str,
@@ -40,30 +42,33 @@ impl<'a> Part<'a> {
     }
 
     /// What the rows of each matrix are.
-    pub(super) fn rows(&self, all: &[Found], here: impl Fn(Mistake) -> Wrong) -> Result<Vec<Vec<Row>>, Wrong> {
+    pub(super) fn rows(&self, all: &[Found], file: &Declaration) -> Result<Vec<Vec<Row>>, Failure> {
         let stations = self.file.stations.len();
         let is_said = all.iter().any(|found| found.matrix.labels.is_some());
         let of = |found: &Found| {
             let (word, order) = (found.role.word, found.matrix.order);
-            match (&found.matrix.labels, &self.unknowns) {
-                (Some(labels), _) => rows(labels, &self.stations).map_err(|message| found.wrong(message)),
-                (None, Some((_, labels))) if order != labels.len() => {
-                    Err(found.wrong(format!("the {word} has {order} rows, and `unknowns` lists {}", labels.len())))
-                }
-                (None, Some((at, labels))) => {
-                    rows(labels, &self.stations).map_err(|message| here(at.mistake(self.text, message)))
-                }
-                (None, None) if is_said || order < 6 * stations => {
-                    Err(found.wrong(format!("what are the {order} rows of the {word}? List the `unknowns`")))
-                }
-                (None, None) if order != all[0].matrix.order => {
-                    let (other, rows) = (all[0].role.word, all[0].matrix.order);
-                    Err(found.wrong(format!(
-                        "the {word} has {order} rows, and the {other} {rows}: give matrices of one order"
-                    )))
-                }
-                (None, None) => Ok(in_order(order, stations)),
+            let (labels, unknowns) = (&found.matrix.labels, self.unknowns.as_ref());
+            if let (None, Some((at, labels))) = (labels, unknowns)
+                && order == labels.len()
+            {
+                let rows = rows(labels, &self.stations);
+                return rows.map_err(|message| at.mistake(self.text, message)).map_err(file.wrong());
             }
+            let rows = match (labels, unknowns) {
+                (Some(labels), _) => rows(labels, &self.stations),
+                (None, Some((_, labels))) => {
+                    Err(format!("the {word} has {order} rows, and `unknowns` lists {}", labels.len()))
+                }
+                _ if is_said || order < 6 * stations => {
+                    Err(format!("what are the {order} rows of the {word}? List the `unknowns`"))
+                }
+                _ if order != all[0].matrix.order => {
+                    let (other, rows) = (all[0].role.word, all[0].matrix.order);
+                    Err(format!("the {word} has {order} rows, and the {other} {rows}: give matrices of one order"))
+                }
+                _ => Ok(in_order(order, stations)),
+            };
+            rows.map_err(first).map_err(found.file.wrong())
         };
         all.iter().map(of).collect()
     }
