@@ -3,7 +3,6 @@
 
 use eigentol_compiler::matrix_market::{MOST_ROWS, Mistake, Word, end, lines};
 
-use super::first;
 use super::matrix::{Entry, Label, Matrix, Named, Rows, Wanted, completed, direction};
 
 /// A keyword without spaces, in capitals, and the lines below it.
@@ -143,14 +142,9 @@ fn labels(nodes: &[i64], element: &Section<'_>) -> Result<Vec<Label>, Mistake> {
         now = if change.is_empty() { now } else { change };
         all.extend(now.iter().map(|direction| (*node, *direction)));
     }
-    if all.is_empty() || all.len() > MOST_ROWS {
-        let message =
-            "the rows of the element are not said: nodes follow `** ELEMENT NODES`, and then their directions";
-        return Err(if all.is_empty() {
-            element.head.mistake(message)
-        } else {
-            first("the element has too many rows")
-        });
+    if (1..=MOST_ROWS).contains(&all.len()) {
+        return Ok(all);
     }
-    Ok(all)
+    let message = "the rows of the element are not said: nodes follow `** ELEMENT NODES`, and then their directions";
+    Err(element.head.mistake(if all.is_empty() { message } else { "the element has too many rows" }))
 }

@@ -27,16 +27,18 @@ pub(super) fn rows(labels: &[Label], stations: &HashMap<i64, usize>) -> Result<V
                 Row::Internal((node, direction), *count)
             }
         };
-        let is_new = seen.insert(row);
-        is_new.then_some(row).ok_or_else(|| format!("direction {direction} of node {node} is listed twice"))
+        match direction {
+            7.. => Err(format!("node {node} has no direction {direction}: they are 1 to 6, or 0 of what has none")),
+            _ if !seen.insert(row) => Err(format!("direction {direction} of node {node} is listed twice")),
+            _ => Ok(row),
+        }
     };
     labels.iter().map(one).collect()
 }
 
 /// The rows of a matrix that are six of each station and then internal ones.
 pub(super) fn in_order(order: usize, stations: usize) -> Vec<Row> {
-    let internal = |k| Row::Internal((0, 0), k);
-    (0..order).map(|k| if k < 6 * stations { Row::Station(k) } else { internal(k) }).collect()
+    (0..order).map(|k| if k < 6 * stations { Row::Station(k) } else { Row::Internal((0, 0), k) }).collect()
 }
 
 /// The order of all rows.

@@ -1,10 +1,8 @@
 //! The file that describes a superelement: stations, units, and where its matrices are.
 
+use eigentol_compiler::matrix_market::Mistake;
 use serde::Deserialize;
 use serde_json::value::RawValue;
-
-use super::matrix::Label;
-use eigentol_compiler::matrix_market::Mistake;
 
 /// The whole file.
 #[derive(Deserialize)]
@@ -89,21 +87,7 @@ pub(super) fn read(text: &str) -> Result<File<'_>, Mistake> {
     })
 }
 
-/// The rows of matrices that do not say them.
-pub(super) fn unknowns(at: At<'_>, text: &str) -> Result<Vec<Label>, Mistake> {
-    let labels: Vec<Label> = at.get(text)?;
-    match labels.iter().find(|(_, direction)| *direction > 6) {
-        Some((node, direction)) => Err(at.mistake(
-            text,
-            format!("node {node} has no direction {direction}: they are 1 to 6, or 0 of what has none"),
-        )),
-        None => Ok(labels),
-    }
-}
-
 /// A message without the place that is drawn.
 fn plain(error: &serde_json::Error) -> String {
-    let text = error.to_string();
-    let text = text.rsplit_once(" at line ").map_or(&*text, |(message, _)| message);
-    text.to_owned()
+    error.to_string().split(" at line ").next().unwrap_or_default().to_owned()
 }

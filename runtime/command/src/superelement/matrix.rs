@@ -26,9 +26,10 @@ impl From<matrix_market::Matrix> for Matrix {
 }
 
 pub(super) fn direction(word: Word<'_>) -> Result<u8, Mistake> {
-    let number = word.whole("direction of a motion")?;
-    let known = (number <= 6).then_some(number);
-    known.ok_or_else(|| word.mistake(format!("a direction is 1 to 6, or 0 of what has none, not {number}")))
+    match word.whole("direction of a motion")? {
+        number @ 0..=6 => Ok(number),
+        number => Err(word.mistake(format!("a direction is 1 to 6, or 0 of what has none, not {number}"))),
+    }
 }
 
 /// Rows by what they are, in the order of their first mention.

@@ -51,7 +51,7 @@ pub(crate) fn import(
     let part = Part::read(&file.text).map_err(file.wrong())?;
     let mut files = Files { file, folder, read: Vec::new() };
     let found = files.matrices(&part.file)?;
-    let rows = part.rows(&found, file)?;
+    let rows = part.rows(&found)?;
     let listed: HashSet<Row> = rows.iter().flatten().copied().collect();
     let notes = part.lacking(&listed).map_err(file.wrong())?;
     let order = Order::of(part.file.stations.len(), listed);

@@ -29,7 +29,7 @@ pub(super) fn read(text: &str, wanted: Wanted<'_>) -> Result<Matrix, Mistake> {
     wanted.among(all)
 }
 
-/// A matrix that ends the file if it is cut off, and else may be of no use.
+/// The next matrix, or why it is of no use; a mistake if what follows it cannot be found.
 fn matrix<'t>(text: &'t str, header: Word<'t>, rest: &mut impl Iterator<Item = Word<'t>>) -> Result<Named, Mistake> {
     let [columns, rows, form, kind, name] = [0, 8, 16, 24, 32].map(|from| field(header, from, 8));
     let layout = layout(header)?;

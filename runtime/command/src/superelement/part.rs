@@ -1,7 +1,6 @@
 //! The part that a file describes: its stations, what the rows of its matrices are, and its declaration.
 
 use std::collections::{HashMap, HashSet};
-use std::fmt::Write as _;
 
 use eigentol_compiler::matrix_market::Mistake;
 
@@ -11,7 +10,6 @@ use super::json::{self, At, File};
 use super::matrix::Label;
 use super::units::Scales;
 use super::{first, identifier};
-use crate::declaration::Declaration;
 use crate::failure::Failure;
 
 pub(super) struct Part<'a> {
@@ -20,7 +18,8 @@ pub(super) struct Part<'a> {
     pub(super) scales: Scales,
     /// Stations by their nodes.
     stations: HashMap<i64, usize>,
-    unknowns: Option<(At<'a>, Vec<Label>)>,
+    /// The rows of matrices that do not say them.
+    unknowns: Option<Vec<Row>>,
 }
 
 impl<'a> Part<'a> {
@@ -37,34 +36,28 @@ impl<'a> Part<'a> {
             }
         }
         let scales = Scales::of(&file.units, text)?;
-        let unknowns = file.unknowns.map(|at| Ok((at, json::unknowns(at, text)?))).transpose()?;
+        let said =
+            |at: At<'a>| rows(&at.get::<Vec<Label>>(text)?, &stations).map_err(|message| at.mistake(text, message));
+        let unknowns = file.unknowns.map(said).transpose()?;
         Ok(Self { text, file, scales, stations, unknowns })
     }
 
     /// What the rows of each matrix are.
-    pub(super) fn rows(&self, all: &[Found], file: &Declaration) -> Result<Vec<Vec<Row>>, Failure> {
+    pub(super) fn rows(&self, all: &[Found]) -> Result<Vec<Vec<Row>>, Failure> {
         let stations = self.file.stations.len();
         let is_said = all.iter().any(|found| found.matrix.labels.is_some());
         let of = |found: &Found| {
             let (word, order) = (found.role.word, found.matrix.order);
-            let (labels, unknowns) = (&found.matrix.labels, self.unknowns.as_ref());
-            if let (None, Some((at, labels))) = (labels, unknowns)
-                && order == labels.len()
-            {
-                let rows = rows(labels, &self.stations);
-                return rows.map_err(|message| at.mistake(self.text, message)).map_err(file.wrong());
-            }
-            let rows = match (labels, unknowns) {
+            let (other, expected) = (all[0].role.word, all[0].matrix.order);
+            let rows = match (&found.matrix.labels, &self.unknowns) {
                 (Some(labels), _) => rows(labels, &self.stations),
-                (None, Some((_, labels))) => {
-                    Err(format!("the {word} has {order} rows, and `unknowns` lists {}", labels.len()))
-                }
+                (None, Some(rows)) if rows.len() == order => Ok(rows.clone()),
+                (None, Some(rows)) => Err(format!("the {word} has {order} rows, and `unknowns` lists {}", rows.len())),
                 _ if is_said || order < 6 * stations => {
                     Err(format!("what are the {order} rows of the {word}? List the `unknowns`"))
                 }
-                _ if order != all[0].matrix.order => {
-                    let (other, rows) = (all[0].role.word, all[0].matrix.order);
-                    Err(format!("the {word} has {order} rows, and the {other} {rows}: give matrices of one order"))
+                _ if order != expected => {
+                    Err(format!("the {word} has {order} rows, and the {other} {expected}: give matrices of one order"))
                 }
                 _ => Ok(in_order(order, stations)),
             };
@@ -99,8 +92,8 @@ impl<'a> Part<'a> {
         for (k, station) in self.file.stations.iter().enumerate() {
             let name = station.name.as_deref().unwrap_or_default().replace(char::is_control, " ");
             let node = nodes.get(&k).map_or_else(String::new, |node| format!(" node {node}"));
-            // Writing to a string cannot fail.
-            let _ = writeln!(comments, "    // station {}: {}", k + 1, format!("{name}{node}").trim_start());
+            let comment = format!("    // station {}: {name}{node}", k + 1).replace(":  ", ": ");
+            comments = comments + comment.trim_end_matches([':', ' ']) + "\n";
             places.push(format!("[{}]", station.position.map(|x| format!("{} m", self.scales.metres(x))).join(", ")));
         }
         let body = identifier(&self.file.superelement);
