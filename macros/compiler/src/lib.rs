@@ -21,6 +21,7 @@ mod tests;
 pub mod topology;
 
 pub use eigentol_language::include;
+pub use eigentol_language::matrix_market;
 #[cfg(feature = "locations")]
 pub use eigentol_language::mistakes::{Mistake, Mistakes, tokens};
 pub use eigentol_language::{base, model, syntax};

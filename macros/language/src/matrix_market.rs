@@ -1,7 +1,6 @@
 //! Square real matrices in Matrix Market files, as text: the exchange format of NIST
 //! (<https://math.nist.gov/MatrixMarket/formats.html>).
 
-use std::cmp::Ordering;
 use std::fmt::Write as _;
 
 /// Most rows of a matrix.
@@ -27,52 +26,108 @@ pub struct Mistake {
     pub message: String,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Symmetry {
-    General,
-    Symmetric,
-    Skew,
+/// A line or a part of it, with its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Word<'t> {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column of the first character, from 1.
+    pub column: usize,
+    /// The text.
+    pub text: &'t str,
 }
 
-/// A word of a line.
-#[derive(Clone, Copy)]
-struct Word<'t> {
-    line: usize,
-    column: usize,
-    text: &'t str,
+/// The lines of a text.
+pub fn lines(text: &str) -> impl Iterator<Item = Word<'_>> {
+    text.lines().enumerate().map(|(k, text)| Word { line: k + 1, column: 1, text })
 }
 
-impl Word<'_> {
-    fn mistake(&self, message: String) -> Mistake {
-        Mistake { line: self.line, column: self.column, message }
+/// A mistake after the last line that has something.
+pub fn end(text: &str, message: impl Into<String>) -> Mistake {
+    let last = lines(text.trim_end()).last().unwrap_or(Word { line: 1, column: 1, text: "" });
+    last.at(last.text.len(), "").mistake(message)
+}
+
+impl<'t> Word<'t> {
+    /// A part of this one that begins at a byte of it.
+    pub fn at(self, from: usize, text: &'t str) -> Self {
+        let before = self.text.get(..from).map_or(from, |before| before.chars().count());
+        Self { column: self.column + before, text, ..self }
     }
 
-    fn count(&self, meaning: &str) -> Result<usize, Mistake> {
-        let count = self.text.parse();
-        count.map_err(|_| self.mistake(format!("the {meaning} must be a whole number, not `{}`", shortened(self.text))))
+    /// What stands between spaces and commas.
+    pub fn words(self) -> Vec<Self> {
+        let parts = self.text.split(|c: char| c.is_whitespace() || c == ',').filter(|part| !part.is_empty());
+        parts.map(|part| self.at(part.as_ptr() as usize - self.text.as_ptr() as usize, part)).collect()
+    }
+
+    /// A mistake here.
+    pub fn mistake(self, message: impl Into<String>) -> Mistake {
+        Mistake { line: self.line, column: self.column, message: message.into() }
+    }
+
+    /// As much of the text as a message can have.
+    pub fn shown(self) -> String {
+        self.text.chars().take(40).collect()
+    }
+
+    /// A whole number.
+    ///
+    /// # Errors
+    /// If it is none, or too large or negative for its type.
+    pub fn whole<N: std::str::FromStr>(self, meaning: &str) -> Result<N, Mistake> {
+        self.text
+            .parse()
+            .map_err(|_| self.mistake(format!("the {meaning} must be a whole number, not `{}`", self.shown())))
     }
 
     /// A row or a column, from 0.
-    fn index(&self, meaning: &str, rows: usize) -> Result<usize, Mistake> {
-        let index = self.count(meaning)?;
+    ///
+    /// # Errors
+    /// If the matrix has none of this number.
+    pub fn index(self, meaning: &str, rows: usize) -> Result<usize, Mistake> {
+        let index: usize = self.whole(meaning)?;
         let inside = index.checked_sub(1).filter(|index| *index < rows);
         inside.ok_or_else(|| self.mistake(format!("there is no {meaning} {index}: they count from 1 to {rows}")))
     }
 
-    fn number(&self) -> Result<f64, Mistake> {
-        let text = self.text.replace(['d', 'D'], "e");
+    /// The number of rows of a matrix with as many columns.
+    ///
+    /// # Errors
+    /// If the matrix is not square, or too large.
+    pub fn order(self, columns: usize) -> Result<usize, Mistake> {
+        let rows = self.whole("number of rows")?;
+        if rows != columns {
+            return Err(self.mistake(format!("the matrix must be square: it has {rows} rows and {columns} columns")));
+        }
+        let allowed = (1..=MOST_ROWS).contains(&rows).then_some(rows);
+        allowed.ok_or_else(|| self.mistake(format!("a matrix has from 1 to {MOST_ROWS} rows, not {rows}")))
+    }
+
+    /// A number as C or Fortran writes it: `1.5e-3`, `1.5D-3`, `1.5-3`.
+    ///
+    /// # Errors
+    /// If it is none, or not finite.
+    pub fn number(self) -> Result<f64, Mistake> {
+        let mut text = self.text.replace(['d', 'D', 'E'], "e");
+        let sign = text.rfind(['+', '-']).filter(|sign| *sign > 0 && !text.contains('e'));
+        sign.into_iter().for_each(|sign| text.insert(sign, 'e'));
         match text.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            Ok(_) => Err(self.mistake(format!("`{}` is not finite", shortened(self.text)))),
-            Err(_) => Err(self.mistake(format!("`{}` is not a number", shortened(self.text)))),
+            Ok(_) => Err(self.mistake(format!("`{}` is not finite", self.shown()))),
+            Err(_) => Err(self.mistake(format!("`{}` is not a number", self.shown()))),
         }
     }
 }
 
-/// The start of a text that may be long.
-fn shortened(text: &str) -> String {
-    text.chars().take(40).collect()
-}
+/// The words of the first line, in small letters.
+const HEADER: [&[&str]; 5] = [
+    &["%%matrixmarket"],
+    &["matrix"],
+    &["coordinate", "array"],
+    &["real", "integer", "double"],
+    &["general", "symmetric", "skew-symmetric"],
+];
 
 /// Reads a matrix.
 ///
@@ -87,210 +142,95 @@ fn shortened(text: &str) -> String {
 /// # Errors
 /// If the text is no Matrix Market file, or its matrix is not real, square and of at most 4096 rows.
 pub fn read(text: &str) -> Result<Matrix, Mistake> {
-    let first = text.lines().next().unwrap_or_default();
-    let (is_array, symmetry) = header(first)?;
-    let end = end(text);
-    let mut lines = (text.lines().enumerate().skip(1))
-        .filter(|(_, line)| !line.trim_start().starts_with('%') && !line.trim().is_empty())
-        .map(|(k, line)| words(k + 1, line));
-    let sizes = lines.next().ok_or_else(|| Mistake { message: "the file ends before its sizes".to_owned(), ..end })?;
-    let (rows, expected) = order(&sizes, is_array)?;
-    let expected = expected.unwrap_or_else(|| stored(rows, symmetry));
-    let mut all = Entries { rows, symmetry, expected, count: 0, entries: Vec::new() };
-    if is_array {
-        let below = |column| match symmetry {
-            Symmetry::General => 0,
-            Symmetry::Symmetric => column,
-            Symmetry::Skew => column + 1,
-        };
-        let mut places = (0..rows).flat_map(|column| (below(column)..rows).map(move |row| (row, column)));
-        for word in lines.flatten() {
-            let place = places.next().ok_or_else(|| all.too_many(word))?;
-            all.push(place, word.number()?);
-        }
-    } else {
-        for line in lines {
-            let [row, column, value] = line[..] else {
-                let shape = "an entry is a line with its row, its column and its value";
-                return Err(line[0].mistake(format!("{shape}: this one has {} words", line.len())));
-            };
-            if all.count == all.expected {
-                return Err(all.too_many(row));
-            }
-            let place = (row.index("row", rows)?, column.index("column", rows)?);
-            all.allow(place, row)?;
-            all.push(place, value.number()?);
-        }
+    let ends = |message: String| end(text, message);
+    let mut lines = lines(text);
+    let first = lines.next().map(Word::words).unwrap_or_default();
+    let mut header = [""; 5];
+    for (k, known) in HEADER.into_iter().enumerate() {
+        let word = first.get(k).copied().unwrap_or(Word { line: 1, column: 1, text: "" });
+        let found = known.iter().find(|known| word.text.eq_ignore_ascii_case(known));
+        let list = known.join("` or `");
+        header[k] = found.ok_or_else(|| {
+            let message = format!("word {} of a Matrix Market file is `{list}` here, not `{}`", k + 1, word.shown());
+            word.mistake(message)
+        })?;
     }
-    if all.count < all.expected {
-        return Err(Mistake {
-            message: format!("the file ends after {} of {} entries", all.count, all.expected),
-            ..end
-        });
-    }
-    Ok(Matrix { rows, entries: summed(all.entries)? })
-}
-
-/// Entries as they arrive.
-struct Entries {
-    rows: usize,
-    symmetry: Symmetry,
-    expected: usize,
-    count: usize,
-    entries: Vec<(usize, usize, f64)>,
-}
-
-impl Entries {
-    fn push(&mut self, (row, column): (usize, usize), value: f64) {
-        self.count += 1;
-        self.entries.push((row, column, value));
-        match self.symmetry {
-            Symmetry::Symmetric if row != column => self.entries.push((column, row, value)),
-            Symmetry::Skew => self.entries.push((column, row, -value)),
-            _ => {}
-        }
-    }
-
-    /// A symmetric matrix lists one half: a file with both would count everything twice.
-    fn allow(&self, (row, column): (usize, usize), word: Word<'_>) -> Result<(), Mistake> {
-        match self.symmetry {
-            Symmetry::Symmetric if row < column => Err(word.mistake(
-                "a symmetric matrix lists only what is on and below its diagonal: swap row and column, or call it general"
-                    .to_owned(),
-            )),
-            Symmetry::Skew if row <= column => {
-                Err(word.mistake("a skew-symmetric matrix lists only what is below its diagonal".to_owned()))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn too_many(&self, word: Word<'_>) -> Mistake {
-        let Self { rows, expected, .. } = self;
-        word.mistake(format!("the file goes on after all {expected} entries of a matrix of order {rows}"))
-    }
-}
-
-fn header(first: &str) -> Result<(bool, Symmetry), Mistake> {
-    let words = words(1, first);
-    let expected = |k: usize, known: &str| {
-        let (found, column) = match words.get(k) {
-            Some(word) => (format!("not `{}`", shortened(word.text)), word.column),
-            None => ("which is missing".to_owned(), first.chars().count() + 1),
-        };
-        Mistake { line: 1, column, message: format!("word {} of a Matrix Market file is {known}, {found}", k + 1) }
+    let is_array = header[2] == "array";
+    // The sign of the other half.
+    let sign = match header[4] {
+        "general" => 0.0,
+        "symmetric" => 1.0,
+        _ => -1.0,
     };
-    let word = |k: usize| words.get(k).map(|word: &Word<'_>| word.text.to_ascii_lowercase()).unwrap_or_default();
-    if word(0) != "%%matrixmarket" {
-        return Err(expected(0, "`%%MatrixMarket`"));
-    }
-    if word(1) != "matrix" {
-        return Err(expected(1, "`matrix`"));
-    }
-    let is_array = match &*word(2) {
-        "coordinate" => false,
-        "array" => true,
-        _ => return Err(expected(2, "`coordinate` or `array`")),
-    };
-    if !matches!(&*word(3), "real" | "double" | "integer") {
-        return Err(expected(3, "here `real` or `integer`"));
-    }
-    let symmetry = match &*word(4) {
-        "general" => Symmetry::General,
-        "symmetric" => Symmetry::Symmetric,
-        "skew-symmetric" => Symmetry::Skew,
-        _ => return Err(expected(4, "here `general`, `symmetric` or `skew-symmetric`")),
-    };
-    Ok((is_array, symmetry))
-}
-
-/// Rows, and entries where the sizes say it.
-fn order(sizes: &[Word<'_>], is_array: bool) -> Result<(usize, Option<usize>), Mistake> {
-    let (rows, columns, entries) = match *sizes {
+    let lines = lines.filter(|line| !line.text.trim_start().starts_with('%')).map(Word::words);
+    let mut lines = lines.filter(|line| !line.is_empty());
+    let sizes = lines.next().ok_or_else(|| ends("the file ends before its sizes".to_owned()))?;
+    let (rows, columns, expected) = match sizes[..] {
         [rows, columns] if is_array => (rows, columns, None),
-        [rows, columns, entries] if !is_array => (rows, columns, Some(entries)),
-        _ => {
-            let expected = if is_array { "rows and columns" } else { "rows, columns and entries" };
-            return Err(sizes[0].mistake(format!("the sizes are the numbers of {expected}")));
-        }
+        [rows, columns, entries] if !is_array => (rows, columns, Some(entries.whole("number of entries")?)),
+        _ => return Err(sizes[0].mistake("the sizes are rows and columns, and the entries of a coordinate file")),
     };
-    let [count, across] = [rows.count("number of rows")?, columns.count("number of columns")?];
-    if count != across {
-        return Err(rows.mistake(format!("the matrix must be square: this one has {count} rows and {across} columns")));
-    }
-    if count == 0 || count > MOST_ROWS {
-        return Err(rows.mistake(format!("a matrix has from 1 to {MOST_ROWS} rows, not {count}")));
-    }
-    Ok((count, entries.map(|entries| entries.count("number of entries")).transpose()?))
-}
-
-/// Entries of an array.
-fn stored(rows: usize, symmetry: Symmetry) -> usize {
-    match symmetry {
-        Symmetry::General => rows * rows,
-        Symmetry::Symmetric => rows * (rows + 1) / 2,
-        Symmetry::Skew => rows * (rows - 1) / 2,
-    }
-}
-
-fn words(line: usize, text: &str) -> Vec<Word<'_>> {
-    let mut all = Vec::new();
-    let (mut start, mut column) = (None, 0);
-    for (at, letter) in text.char_indices().chain([(text.len(), ' ')]) {
-        column += 1;
-        match (start, letter.is_whitespace()) {
-            (None, false) => start = Some((at, column)),
-            (Some((from, column)), true) => {
-                all.push(Word { line, column, text: &text[from..at] });
-                start = None;
+    let rows = rows.order(columns.whole("number of columns")?)?;
+    let from = |column: usize| if sign == 0.0 { 0 } else { column + usize::from(sign < 0.0) };
+    let mut places = (0..rows).flat_map(|column| (from(column)..rows).map(move |row| (row, column)));
+    let expected = expected.unwrap_or_else(|| (0..rows).map(|column| rows - from(column)).sum());
+    let (mut count, mut entries) = (0_usize, Vec::new());
+    for line in lines {
+        for words in line.chunks(if is_array { 1 } else { line.len() }) {
+            if count == expected {
+                return Err(words[0].mistake(format!("the file goes on after all {expected} entries")));
             }
-            _ => {}
+            let (row, column, value) = match *words {
+                [value] if is_array => {
+                    let (row, column) = places.next().unwrap_or_default();
+                    (row, column, value)
+                }
+                [row, column, value] => (row.index("row", rows)?, column.index("column", rows)?, value),
+                _ => return Err(words[0].mistake("an entry is a line with its row, its column and its value")),
+            };
+            if row < from(column) {
+                let message =
+                    format!("a {} matrix lists only its lower half: swap row and column, or say general", header[4]);
+                return Err(words[0].mistake(message));
+            }
+            let value = value.number()?;
+            entries.push((row, column, value));
+            if sign != 0.0 && row != column {
+                entries.push((column, row, sign * value));
+            }
+            count += 1;
         }
     }
-    all
+    if count < expected {
+        return Err(ends(format!("the file ends after {count} of {expected} entries")));
+    }
+    let entries = summed(entries).ok_or_else(|| ends("entries that are listed twice have no finite sum".to_owned()))?;
+    Ok(Matrix { rows, entries })
 }
 
-/// The place after the last line that has something.
-fn end(text: &str) -> Mistake {
-    let text = text.trim_end();
-    let last = text.lines().last().unwrap_or_default();
-    Mistake { line: text.lines().count().max(1), column: last.chars().count() + 1, message: String::new() }
-}
-
-/// Entries in order, those at the same place summed.
-fn summed(mut entries: Vec<(usize, usize, f64)>) -> Result<Vec<(usize, usize, f64)>, Mistake> {
+/// Entries in order, those at the same place summed; `None` if a sum is not finite.
+pub fn summed(mut entries: Vec<(usize, usize, f64)>) -> Option<Vec<(usize, usize, f64)>> {
     entries.sort_by_key(|(row, column, _)| (*row, *column));
     entries.dedup_by(|next, first| {
         let same = (next.0, next.1) == (first.0, first.1);
-        if same {
-            first.2 += next.2;
-        }
+        first.2 += if same { next.2 } else { 0.0 };
         same
     });
-    match entries.iter().find(|(_, _, value)| !value.is_finite()) {
-        Some((row, column, _)) => {
-            let message = format!("the entries in row {} and column {} have no finite sum", row + 1, column + 1);
-            Err(Mistake { line: 1, column: 1, message })
-        }
-        None => Ok(entries),
-    }
+    entries.iter().all(|(_, _, value)| value.is_finite()).then_some(entries)
 }
 
 /// Writes a matrix so that reading it gives the same numbers, as `symmetric` if it is so exactly.
 pub fn write(matrix: &Matrix) -> String {
     let Matrix { rows, entries } = matrix;
-    let other = |row: usize, column: usize| {
-        let found = entries.binary_search_by(|(r, c, _)| match r.cmp(&row) {
-            Ordering::Equal => c.cmp(&column),
-            unequal => unequal,
-        });
+    let other = |place: (usize, usize)| {
+        let found = entries.binary_search_by_key(&place, |(row, column, _)| (*row, *column));
         found.map_or(0.0, |at| entries[at].2)
     };
-    let symmetric = entries.iter().all(|(row, column, value)| other(*column, *row) == *value);
-    let listed = || entries.iter().filter(|(row, column, _)| !symmetric || row >= column);
+    let symmetric = entries.iter().all(|(row, column, value)| other((*column, *row)) == *value);
     let kind = if symmetric { "symmetric" } else { "general" };
-    let mut text = format!("%%MatrixMarket matrix coordinate real {kind}\n{rows} {rows} {}\n", listed().count());
-    for (row, column, value) in listed() {
+    let listed: Vec<_> = entries.iter().filter(|(row, column, _)| !symmetric || row >= column).collect();
+    let mut text = format!("%%MatrixMarket matrix coordinate real {kind}\n{rows} {rows} {}\n", listed.len());
+    for (row, column, value) in listed {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{} {} {value:e}", row + 1, column + 1);
     }
@@ -346,16 +286,16 @@ mod tests {
         let symmetric = "%%MatrixMarket matrix coordinate real symmetric\n";
         let array = "%%MatrixMarket matrix array real general\n";
         for (text, place, message) in [
-            (String::new(), (1, 1), "word 1 of a Matrix Market file is `%%MatrixMarket`, which is missing"),
-            ("# a".to_owned(), (1, 1), "word 1 of a Matrix Market file is `%%MatrixMarket`, not `#`"),
-            (coordinate.replace("matrix ", "vector "), (1, 16), "`matrix`, not `vector`"),
-            (coordinate.replace("real", "complex"), (1, 34), "`real` or `integer`, not `complex`"),
-            (coordinate.replace("real", "pattern"), (1, 34), "`real` or `integer`, not `pattern`"),
+            (String::new(), (1, 1), "word 1 of a Matrix Market file is `%%matrixmarket` here, not ``"),
+            ("# a".to_owned(), (1, 1), "not `#`"),
+            (coordinate.replace("matrix ", "vector "), (1, 16), "`matrix` here, not `vector`"),
+            (coordinate.replace("real", "complex"), (1, 34), "`real` or `integer` or `double` here, not `complex`"),
+            (coordinate.replace("real", "pattern"), (1, 34), "not `pattern`"),
             (coordinate.replace("general", "hermitian"), (1, 39), "not `hermitian`"),
-            (coordinate.replace(" general", ""), (1, 38), "`skew-symmetric`, which is missing"),
+            (coordinate.replace(" general", ""), (1, 1), "`general` or `symmetric` or `skew-symmetric` here, not ``"),
             (format!("{coordinate}% only"), (2, 7), "the file ends before its sizes"),
-            (format!("{coordinate}2 2\n"), (2, 1), "the numbers of rows, columns and entries"),
-            (format!("{coordinate}2 3 1\n"), (2, 1), "must be square: this one has 2 rows and 3 columns"),
+            (format!("{coordinate}2 2\n"), (2, 1), "the sizes are rows and columns, and the entries"),
+            (format!("{coordinate}2 3 1\n"), (2, 1), "must be square: it has 2 rows and 3 columns"),
             (format!("{coordinate}5000 5000 1\n"), (2, 1), "from 1 to 4096 rows, not 5000"),
             (format!("{array}4000 4000\n1\n"), (3, 2), "the file ends after 1 of 16000000 entries"),
             (format!("{coordinate}2 2 -1\n"), (2, 5), "must be a whole number, not `-1`"),
@@ -366,10 +306,10 @@ mod tests {
             (format!("{coordinate}2 2 1\n0 1 1\n"), (3, 1), "there is no row 0"),
             (format!("{coordinate}2 2 1\n1 1 1e999\n"), (3, 5), "`1e999` is not finite"),
             (format!("{coordinate}2 2 1\n1 1 nan\n"), (3, 5), "`nan` is not finite"),
-            (format!("{coordinate}2 2 1\n1 1 5,3\n"), (3, 5), "`5,3` is not a number"),
-            (format!("{coordinate}2 2 1\n1 1\n"), (3, 1), "this one has 2 words"),
-            (format!("{symmetric}2 2 1\n1 2 1\n"), (3, 1), "on and below its diagonal"),
-            (format!("{coordinate}1 1 2\n1 1 1e308\n1 1 1e308\n"), (1, 1), "have no finite sum"),
+            (format!("{coordinate}2 2 1\n1 1 5,3\n"), (3, 1), "an entry is a line with its row"),
+            (format!("{coordinate}2 2 1\n1 1\n"), (3, 1), "an entry is a line with its row"),
+            (format!("{symmetric}2 2 1\n1 2 1\n"), (3, 1), "lists only its lower half"),
+            (format!("{coordinate}1 1 2\n1 1 1e308\n1 1 1e308\n"), (4, 10), "have no finite sum"),
         ] {
             let mistake = read(&text).unwrap_err();
             assert!(mistake.message.contains(message), "{text}: {}", mistake.message);

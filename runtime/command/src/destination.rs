@@ -68,6 +68,13 @@ impl Destination {
         }
     }
 
+    /// A file of this name beside the file, unless that is a device or a link.
+    pub(crate) fn beside(&self, name: &str) -> Option<Self> {
+        let output = self.output.as_deref()?;
+        let is_file = matches!(Target::of(output), Target::File { path, .. } if path == output);
+        is_file.then(|| Self { output: Some(output.with_file_name(name)) })
+    }
+
     /// The path of the file, if any.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.output.as_deref()

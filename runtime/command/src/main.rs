@@ -21,6 +21,7 @@ mod requirements;
 mod rotor;
 mod rows;
 mod study_file;
+mod superelement;
 mod sweep;
 mod verdict;
 

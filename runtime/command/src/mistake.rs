@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use eigentol_compiler::matrix_market;
+
 /// What is wrong, where, and how to fix it. Lines and characters count from 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Mistake {
@@ -23,6 +25,12 @@ impl From<&eigentol_interpreter::Mistake> for Mistake {
             help: mistake.help.clone(),
             file: mistake.file.clone(),
         }
+    }
+}
+
+impl From<matrix_market::Mistake> for Mistake {
+    fn from(matrix_market::Mistake { line, column, message }: matrix_market::Mistake) -> Self {
+        Self { start: (line, column), end: (line, column + 1), message, help: None, file: None }
     }
 }
 

@@ -9,19 +9,20 @@ use eigentol_interpreter::value;
 use eigentol_urdf::{Options, Resistance, import_mjcf, is_mjcf};
 
 use crate::declaration::Declaration;
-use crate::destination::Destination;
+use crate::destination::{Destination, is_same};
 use crate::diagnostics;
 use crate::failure::Failure;
 use crate::mistake::Mistake;
 use crate::rotor;
+use crate::superelement::{self, identifier, is_superelement};
 use crate::verdict::Verdict;
 
-/// Translate a robot in a URDF file, a model of MuJoCo (MJCF), or a rotor that ROSS has saved, into a declaration; notes say what a mechanism cannot express.
+/// Translate a robot in a URDF file, a model of MuJoCo (MJCF), a rotor that ROSS has saved, or a superelement, into a declaration; notes say what a mechanism cannot express.
 ///
-/// A model of MuJoCo says itself what holds it and what resists its joints: of the options only `--name` and `--joints` matter to it, to a rotor only `--name`.
+/// A model of MuJoCo says itself what holds it and what resists its joints: of the options only `--name` and `--joints` matter to it, to a rotor and a superelement only `--name`.
 #[derive(Args, Debug)]
 pub(crate) struct Import {
-    /// URDF, MJCF or ROSS file, `-` for standard input
+    /// URDF, MJCF or ROSS file, or JSON of a superelement, `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// How the root of the robot is held
@@ -85,6 +86,9 @@ impl Import {
         self.place.check()?;
         let file = Declaration::raw(&self.file)?;
         let folder = self.file.parent().unwrap_or(Path::new(""));
+        if is_superelement(&file.text) {
+            return self.superelement(&file, folder);
+        }
         if rotor::is_rotor(&file.text) {
             let imported = rotor::import(&file.text, self.name.as_deref()).map_err(|message| Failure::Value {
                 place: file.name.clone(),
@@ -108,6 +112,36 @@ impl Import {
         self.place.write(&robot.declaration)?;
         if !self.quiet {
             robot.notes.iter().for_each(diagnostics::note);
+        }
+        Ok(Verdict::Yes)
+    }
+
+    /// The matrices are written first: a declaration without them would be of no use.
+    fn superelement(&self, file: &Declaration, folder: &Path) -> Result<Verdict, Failure> {
+        let beside =
+            || Failure::usage("a superelement has matrices beside it: give --output", "as in `--output casing.part`");
+        let output = self.place.path().ok_or_else(beside)?;
+        let stem = identifier(&output.file_stem().unwrap_or_default().to_string_lossy());
+        let imported = superelement::import(file, folder, &stem, self.name.as_deref())?;
+        let mut writes = Vec::new();
+        for (name, text) in &imported.matrices {
+            writes.push((self.place.beside(name).ok_or_else(beside)?, text));
+        }
+        for path in writes.iter().filter_map(|(place, _)| place.path()).chain([output]) {
+            if imported.read.iter().chain([&self.file]).any(|read| is_same(read, path)) {
+                let message = format!("`{}` is read, and would be replaced", path.display());
+                return Err(Failure::usage(message, "write into another folder, or give --output another name"));
+            }
+        }
+        for (place, _) in &writes {
+            place.check()?;
+        }
+        for (place, text) in writes {
+            place.write(text)?;
+        }
+        self.place.write(&imported.declaration)?;
+        if !self.quiet {
+            imported.notes.iter().for_each(diagnostics::note);
         }
         Ok(Verdict::Yes)
     }

@@ -1,4 +1,4 @@
-//! Robots imported from URDF files, rotors from files of ROSS.
+//! Robots imported from URDF files, rotors from files of ROSS, superelements from files of finite element programs.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -158,4 +158,380 @@ fn what_is_wrong_with_a_rotor_of_ross_is_named() {
         let run = run_with_input(&["import", "-"], &text[..end]);
         assert!(run.code == 2 || !run.out.is_empty(), "{end}: {}", run.err);
     }
+}
+
+/// One superelement in every format, and the script that has written them.
+fn superelements() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/truth/superelements")
+}
+
+const MATRICES: [&str; 3] = ["mass", "stiffness", "damping"];
+
+/// `inline.json` is in SI, by another hand; the others are in mm, t and s with their rows in another order.
+#[test]
+fn a_superelement_is_the_same_in_every_format() {
+    let target = folder("superelement_formats");
+    let read = |name: &str| {
+        let output = target.join(format!("{name}.part")).display().to_string();
+        let run = run(&["import", &superelements().join(format!("{name}.json")).display().to_string(), "-o", &output]);
+        assert_eq!((run.code, run.out.as_str(), run.err.as_str()), (0, "", ""), "{name}");
+        let matrices = MATRICES.map(|matrix| fs::read_to_string(target.join(format!("{name}_{matrix}.mtx"))).ok());
+        (fs::read_to_string(&output).unwrap().replace(&format!("{name}_"), "casing_"), matrices)
+    };
+    let (declaration, matrices) = read("inline");
+    assert_eq!(
+        declaration,
+        "/// A superelement from a finite element program.
+mechanism Casing {
+    // station 1: left node 101
+    // station 2: right node 205
+    body casing: superelement(mass: \"casing_mass.mtx\", stiffness: \"casing_stiffness.mtx\", \
+         damping: \"casing_damping.mtx\", stations: [[0 m, 0 m, 0.1 m], [0.5 m, 0 m, 0.1 m]]);
+}
+"
+        .replace("\\\n         ", "")
+    );
+    let stiffness = matrices[1].as_deref().unwrap();
+    assert!(stiffness.starts_with("%%MatrixMarket matrix coordinate real symmetric\n14 14 28\n1 1 2.5e8\n2 2 1.2e6\n"));
+    let mut count = 0;
+    for file in fs::read_dir(superelements()).unwrap() {
+        let path = file.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        if path.extension().is_none_or(|ending| ending != "json") {
+            continue;
+        }
+        let (other, found) = read(name);
+        for (k, matrix) in MATRICES.iter().enumerate() {
+            assert!(found[k] == matrices[k] || name == "calculix" && k == 2, "{name}: {matrix}");
+        }
+        assert_eq!(
+            other.replace(
+                "casing_stiffness.mtx\", stations",
+                "casing_stiffness.mtx\", damping: \"casing_damping.mtx\", stations"
+            ),
+            declaration
+        );
+        count += 1;
+    }
+    assert_eq!(count, 11);
+}
+
+/// A copy of the superelements of which one file is another.
+fn changed(name: &str, file_name: &str, change: impl Fn(&str) -> String) -> (PathBuf, Run) {
+    let target = folder("superelement_changed");
+    for file in fs::read_dir(superelements()).unwrap() {
+        let path = file.unwrap().path();
+        fs::copy(&path, target.join(path.file_name().unwrap())).unwrap();
+    }
+    let text = fs::read_to_string(target.join(file_name)).unwrap();
+    fs::write(target.join(file_name), change(&text)).unwrap();
+    let output = target.join("out.part").display().to_string();
+    let run = run(&["import", &target.join(format!("{name}.json")).display().to_string(), "-o", &output]);
+    (target, run)
+}
+
+#[test]
+fn what_is_wrong_with_a_superelement_is_drawn() {
+    let mut failed = String::new();
+    let mut expect = |name: &str, file: &str, changes: &[(&str, &str, &str, &str)]| {
+        for (old, new, place, message) in changes {
+            let (target, run) = changed(name, file, |text| {
+                assert!(text.contains(old), "{file}: {old}");
+                text.replacen(old, new, 1)
+            });
+            let place = format!("superelement_changed/{place}");
+            if (run.code, run.out.as_str()) != (3, "") || !run.err.contains(message) || !run.err.contains(&place) {
+                failed += &format!("{file} {new}: {place} {message}\n{}\n", run.err);
+            }
+            assert!(!target.join("out.part").exists() && !target.join("out_mass.mtx").exists());
+        }
+    };
+    expect(
+        "market",
+        "market.json",
+        &[
+            (r#""units""#, r#""unit""#, "market.json:3:", "unknown field `unit`"),
+            (r#""mm""#, r#""kg""#, "market.json:3:23", "`kg` is not a unit of length, as `m` is"),
+            (
+                r#""mass": "t""#,
+                r#""mass": "t", "force": "N""#,
+                "market.json:3:",
+                "give the unit of mass or that of force, not both",
+            ),
+            (r#""stiffness""#, r#""damping""#, "market.json:8:", "duplicate field `damping`"),
+            (r#""stiffness""#, r#""stiff""#, "market.json:7:", "unknown field `stiff`"),
+            (r#""damping""#, r#""stiffness""#, "market.json:", "duplicate field `stiffness`"),
+            ("[0, 0, 100]", "[0, 100]", "market.json:4:", "invalid length 2"),
+            (r#""node": 205"#, r#""node": 101"#, "market.json:4:", "station 1 is at this node already"),
+            (r#""node": 205"#, r#""node": "b""#, "market.json:4:", "invalid type: string"),
+            (
+                r#""node": 205"#,
+                r#""node": 206"#,
+                "market.json:4:",
+                "no matrix has a row of station 2: give a node that was retained",
+            ),
+            ("[205, 1]", "[205, 2]", "market.json:5:", "direction 2 of node 205 is listed twice"),
+            ("[205, 1]", "[205, 7]", "market.json:5:", "node 205 has no direction 7"),
+            ("[205, 1], ", "", "market_mass.mtx:1:1", "the mass has 14 rows, and `unknowns` lists 13"),
+            ("market_mass", "market_lost", "market.json:6:", "`market_lost.mtx` cannot be read: "),
+            (r#""market_mass.mtx""#, r#""/dev/null""#, "market.json:6:", "outside the folder of this file"),
+            (
+                r#"_mass.mtx""#,
+                r#"_mass.mtx", "format": "ansys""#,
+                "market.json:6:",
+                "is of no format that is known: give its `format`, `matrix_market`",
+            ),
+            (
+                r#""file": "market_mass.mtx""#,
+                "",
+                "market.json:1:1",
+                "give `matrix_market` or `file` of the mass, one of both",
+            ),
+            ("}\n}", "}", "market.json:", "EOF while parsing an object"),
+        ],
+    );
+    expect(
+        "market",
+        "market_mass.mtx",
+        &[
+            ("%%MatrixMarket", "%%Matrix", "market.json:6:", "`market_mass.mtx` is of no format that is known"),
+            ("\n1 1 ", "\n1 1 x", "market_mass.mtx:", "is not a number"),
+        ],
+    );
+    expect(
+        "inline",
+        "inline.json",
+        &[
+            ("14 14 28", "14 14 29", "inline.json:", "column 14 of it: the file ends after 28 of 29 entries"),
+            (
+                r#""14 14 28""#,
+                r#""15 15 28""#,
+                "inline.json:1:1",
+                "the stiffness has 15 rows, and the mass 14: give matrices of one order",
+            ),
+            (r#""name": "left""#, r#""name": "left", "colour": 1"#, "inline.json:", "unknown field `colour`"),
+            ("\"position\": [\n", "\"place\": [\n", "inline.json:", "unknown field `place`"),
+        ],
+    );
+    expect(
+        "harwell",
+        "harwell_stiffness.matrix",
+        &[
+            ("RSA", "RSE", "harwell_stiffness.matrix:3:1", "must be of type RSA or RUA: real and assembled"),
+            (
+                "(8I10)  ",
+                "(banana)",
+                "harwell_stiffness.matrix:4:1",
+                "`(banana)` is not a format such as `(1P,5E16.8)`",
+            ),
+            (
+                "            14            14",
+                "          9999          9999",
+                "harwell_stiffness.matrix:3:",
+                "from 1 to 4096 rows, not 9999",
+            ),
+            (
+                "         1         2",
+                "         2         2",
+                "harwell_stiffness.matrix:5:",
+                "a column begins where the one before it ends",
+            ),
+        ],
+    );
+    expect(
+        "abaqus",
+        "abaqus_stiffness.mtx",
+        &[
+            (
+                "205,1,205,1,",
+                "205,7,205,1,",
+                "abaqus_stiffness.mtx:",
+                "a direction is 1 to 6, or 0 of what has none, not 7",
+            ),
+            ("205,1,205,1,", "205,1,205,", "abaqus_stiffness.mtx:", "a line of 4 words, where others have 5"),
+            (
+                "** \n",
+                "*MATRIX INPUT, NAME=K, SCALE FACTOR=2\n",
+                "abaqus_stiffness.mtx:1:1",
+                "this keyword is not read",
+            ),
+        ],
+    );
+    expect(
+        "substructure",
+        "substructure.mtx",
+        &[
+            (
+                "TYPE=MASS",
+                "TYPE=LOAD",
+                "substructure.mtx:1:1",
+                "there is not one matrix that must be the mass, the file has `STIFFNESS`, `LOAD`",
+            ),
+            (
+                "** 101",
+                "** 101, 102",
+                "substructure.mtx:",
+                "the lower triangle of 20 rows has 210 entries, but 105 follow",
+            ),
+            ("ELEMENT NODES", "NODES", "substructure.mtx:", "position of a node"),
+        ],
+    );
+    expect(
+        "substructure",
+        "substructure.json",
+        &[(
+            "viscousdamping",
+            "damping",
+            "substructure.mtx:1:1",
+            "there is not one matrix `damping`, the file has `STIFFNESS`",
+        )],
+    );
+    expect(
+        "calculix",
+        "calculix.dof",
+        &[
+            ("205.1\n", "205\n", "calculix.dof:2:1", "a line has a node and a direction, as in `12.3`"),
+            ("205.1\n", "", "calculix.mas:", "the matrix ends after 14 rows, the `.dof` file has 13"),
+        ],
+    );
+    expect(
+        "nastran",
+        "nastran.pch",
+        &[
+            (
+                "MAAX           0       6       2",
+                "MAAX           0       6       3",
+                "nastran.pch:",
+                "must be real: of type 1 or 2",
+            ),
+            (
+                "MAAX           0       6       2",
+                "MAAX           0       9       2",
+                "nastran.pch:",
+                "must be square: of form 1, or 6 if it is symmetric",
+            ),
+            ("MAAX           0", "MAAX           1", "nastran.pch:", "`MAAX` must have one header, before its columns"),
+        ],
+    );
+    expect(
+        "op4",
+        "casing.op4",
+        &[
+            (
+                "      14      14       6       2KGG",
+                "      14      13       6       2KGG",
+                "casing.op4:",
+                "it has 13 rows and 14 columns",
+            ),
+            (
+                "      14      14       6       2KGG",
+                "      14      14       6       3KGG",
+                "casing.op4:",
+                "must be real",
+            ),
+            (
+                "KGG ",
+                "QGG ",
+                "casing.op4:1:1",
+                "there is not one matrix that must be the stiffness, the file has `PHG`, `QGG`, `MGG`",
+            ),
+        ],
+    );
+    assert!(failed.is_empty(), "{failed}");
+}
+
+/// Formats that say how much they have are refused wherever they are cut off, others within a line.
+#[test]
+fn a_superelement_that_is_cut_off_is_refused() {
+    for (name, file, counts) in [
+        ("market", "market_mass.mtx", true),
+        ("harwell", "harwell_mass.matrix", true),
+        ("op4", "casing.op4", true),
+        ("big", "big.op4", true),
+        ("substructure", "substructure.mtx", true),
+        ("calculix", "calculix.sti", true),
+        ("abaqus", "abaqus_mass.mtx", false),
+        ("nastran", "nastran.pch", false),
+        ("market", "market.json", true),
+    ] {
+        let length = fs::metadata(superelements().join(file)).unwrap().len() as usize;
+        for end in (0..length - 3).step_by(length / 7) {
+            let (_, run) = changed(name, file, |text| text[..end].to_owned());
+            let is_line = fs::read_to_string(superelements().join(file)).unwrap()[..end].ends_with('\n');
+            assert!(run.code == 3 || !counts && is_line, "{file} {end}: {}", run.err);
+            assert!(!run.err.contains("panicked"), "{}", run.err);
+        }
+    }
+    let (_, run) =
+        changed("market", "market_mass.mtx", |text| text.lines().take(20).collect::<Vec<_>>().join("\n") + "\n");
+    assert!(
+        run.err.contains("market_mass.mtx:20:") && run.err.contains("the file ends after 17 of 32 entries"),
+        "{}",
+        run.err
+    );
+}
+
+/// Millimetres, newtons and seconds are millimetres, tonnes and seconds.
+#[test]
+fn a_superelement_in_newtons_is_the_same() {
+    let expected = changed("market", "market.json", str::to_owned).0;
+    let expected = fs::read_to_string(expected.join("out_stiffness.mtx")).unwrap();
+    let (found, run) = changed("market", "market.json", |text| text.replace("\"mass\": \"t\"", "\"force\": \"N\""));
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(fs::read_to_string(found.join("out_stiffness.mtx")).unwrap(), expected);
+}
+
+#[test]
+fn motions_that_the_files_of_a_superelement_lack_are_zero() {
+    let unknowns = "[[1, 1], [1, 2], [1, 3]]";
+    let solid = |matrix: &str| {
+        format!("{{\"matrix_market\": \"%%MatrixMarket matrix array real symmetric\\n3 3\\n{matrix}\"}}")
+    };
+    let text = format!(
+        "{{\"superelement\": \"2nd foot\", \"stations\": [{{\"node\": 1, \"position\": [0, 0, 0]}}], \"unknowns\": {unknowns},
+        \"mass\": {}, \"stiffness\": {}}}",
+        solid("1 0 0 1 0 1"),
+        solid("5 -2 0 6 0 7")
+    );
+    let target = folder("superelement_solid");
+    let output = target.join("foot.part").display().to_string();
+    let path = file(&target, "foot.json", &text);
+    let found = run(&["import", &path, "--output", &output, "--name", "Foot"]);
+    assert_eq!(found.code, 0, "{}", found.err);
+    assert_eq!(found.err, "note: station 1 has 3 of its 6 motions in the files: the rows of the others are zero\n");
+    assert_eq!(
+        fs::read_to_string(target.join("foot_stiffness.mtx")).unwrap(),
+        "%%MatrixMarket matrix coordinate real symmetric\n6 6 4\n1 1 5e0\n2 1 -2e0\n2 2 6e0\n3 3 7e0\n"
+    );
+    let declaration = fs::read_to_string(&output).unwrap();
+    assert!(declaration.contains("mechanism Foot {") && declaration.contains("body part_2nd_foot: "), "{declaration}");
+    // Again, over what is there.
+    assert_eq!(run(&["import", &path, "--output", &output, "--quiet"]).err, "");
+}
+
+#[test]
+fn a_superelement_needs_a_place_for_its_matrices() {
+    let market = superelements().join("market.json").display().to_string();
+    for arguments in [&["import", &market][..], &["import", &market, "-o", "/dev/null"]] {
+        let run = run(arguments);
+        assert_eq!((run.code, run.out.as_str()), (2, ""));
+        assert!(run.err.contains("a superelement has matrices beside it: give --output"), "{}", run.err);
+    }
+    // A matrix that is read is not replaced.
+    let target = folder("superelement_place");
+    for file in ["market.json", "market_mass.mtx", "market_stiffness.mtx", "market_damping.mtx"] {
+        fs::copy(superelements().join(file), target.join(file)).unwrap();
+    }
+    let path = target.join("market.json").display().to_string();
+    for output in ["market.part", "market.json"] {
+        let run = run(&["import", &path, "-o", &target.join(output).display().to_string()]);
+        assert_eq!((run.code, run.out.as_str()), (2, ""));
+        assert!(run.err.contains("is read, and would be replaced"), "{}", run.err);
+    }
+    assert_eq!(
+        fs::read(target.join("market_mass.mtx")).unwrap(),
+        fs::read(superelements().join("market_mass.mtx")).unwrap()
+    );
+    let nowhere = run(&["import", &path, "-o", &target.join("none/casing.part").display().to_string()]);
+    assert!(nowhere.code == 3 && nowhere.err.contains("cannot write"), "{}", nowhere.err);
 }

@@ -1,0 +1,91 @@
+//! Superelements: linear parts that a finite element program has reduced to stations and internal coordinates, translated into
+//! declarations with their matrices beside them.
+
+mod abaqus;
+mod assembly;
+mod calculix;
+mod dmig;
+mod files;
+mod fortran;
+mod harwell_boeing;
+mod json;
+mod matrix;
+mod op4;
+mod part;
+mod units;
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use eigentol_compiler::matrix_market::{MOST_ROWS, Mistake, write};
+
+use self::assembly::{Order, Row};
+use self::files::Files;
+use self::part::Part;
+use crate::declaration::Declaration;
+use crate::failure::Failure;
+
+/// A declaration, and what belongs beside it.
+pub(crate) struct Superelement {
+    pub(crate) declaration: String,
+    /// Names and texts of the files of its matrices.
+    pub(crate) matrices: Vec<(String, String)>,
+    pub(crate) notes: Vec<String>,
+    /// The files that were read.
+    pub(crate) read: Vec<PathBuf>,
+}
+
+/// Whether a text describes a superelement.
+pub(crate) fn is_superelement(text: &str) -> bool {
+    text.trim_start().starts_with('{') && text.contains("\"superelement\"")
+}
+
+/// Translates the superelement that a file describes; its matrices are in `folder`, and the names of what belongs beside the
+/// declaration begin with `stem`.
+pub(crate) fn import(
+    file: &Declaration,
+    folder: &Path,
+    stem: &str,
+    mechanism: Option<&str>,
+) -> Result<Superelement, Failure> {
+    let part = Part::read(&file.text).map_err(file.wrong())?;
+    let mut files = Files { file, folder, read: Vec::new() };
+    let found = files.matrices(&part.file)?;
+    let rows = part.rows(&found)?;
+    let listed: HashSet<Row> = rows.iter().flatten().copied().collect();
+    let notes = part.lacking(&listed).map_err(file.wrong())?;
+    let order = Order::of(part.file.stations.len(), listed);
+    let many = || first(format!("there are more than {MOST_ROWS} rows: retain fewer"));
+    let order = order.ok_or_else(many).map_err(file.wrong())?;
+    let (mut matrices, mut arguments) = (Vec::new(), String::new());
+    for (found, rows) in found.iter().zip(&rows) {
+        let word = found.role.word;
+        let (factor, length) = (part.scales.of_matrix(found.role), part.scales.length);
+        let whole = order.assembled(&found.matrix, rows, factor, length);
+        let large = || first(format!("the {word} is too large in SI: look at the units"));
+        let whole = whole.ok_or_else(large).map_err(found.file.wrong())?;
+        let beside = format!("{stem}_{word}.mtx");
+        arguments += &format!("{word}: \"{beside}\", ");
+        matrices.push((beside, write(&whole)));
+    }
+    let declaration = part.declaration(mechanism, &arguments);
+    Ok(Superelement { declaration, matrices, notes, read: files.read })
+}
+
+impl Declaration {
+    /// The failure that a mistake in this file is.
+    fn wrong(&self) -> impl Fn(Mistake) -> Failure {
+        |mistake| self.refused(vec![mistake.into()])
+    }
+}
+
+/// A mistake of a whole file.
+fn first(message: impl Into<String>) -> Mistake {
+    Mistake { line: 1, column: 1, message: message.into() }
+}
+
+/// A name that a declaration and a file can have.
+pub(crate) fn identifier(text: &str) -> String {
+    let plain: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if plain.starts_with(|c: char| c.is_ascii_alphabetic()) { plain } else { format!("part_{plain}") }
+}
