@@ -9,11 +9,11 @@ mod answer;
 
 use crate::algebra::{Field, Lu, Matrix, Vector, greater, largest, times, times_complex};
 use crate::constraints::Structure;
-use crate::kernels::{DirectionalKernels, Linear};
+use crate::kernels::{DirectionalKernels, Kernels, Linear};
 use crate::modes::{CLUSTER_GAP, Family, Normalisation, clusters, lead, pencil_slope_times, pencil_times, transposed};
 use crate::scalar::Real as _;
 use crate::sensitivity::{Rate, check_modes, directions, outside_domain};
-use crate::shafts::refuse;
+use crate::shafts::ShaftsAlong;
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// Total derivatives of the shapes of one mode, with the normalisation of the mode ([`Mode::shape`]).
@@ -44,12 +44,12 @@ pub fn shape_sensitivity(
     modes: &Modes,
     mode: usize,
 ) -> Result<ShapeSensitivity, Error> {
-    refuse(&at.description, "derivatives of shapes")?;
-    let shapes = Shapes::new(at, modes, mode)?;
+    let shapes = Shapes::new(mechanism, at, modes, mode)?;
     let (mut right, mut left) = (Vec::new(), Vec::new());
-    for direction in directions(mechanism, at)? {
+    for (variable, direction) in directions(mechanism, at)?.enumerate() {
         let change = direction.linear(mechanism, at);
-        let (dright, dleft) = shapes.along(&change, shapes.rate.along(&change));
+        let rate = shapes.rate_along(variable, &change);
+        let (dright, dleft) = shapes.along(variable, &change, rate);
         right.push(dright);
         left.push(dleft);
     }
@@ -70,11 +70,12 @@ pub fn shape_sensitivity(
 
 /// Derivatives of the eigenvalue and the shapes of one mode with respect to its matrices.
 pub(super) struct Shapes<'a> {
-    linear: &'a Linear,
     mode: &'a Mode,
     sides: Sides,
     /// Derivative of the eigenvalue: of `lambda` for undamped modes, of `s` for general ones.
-    pub(super) rate: Rate<'a>,
+    rate: Rate<'a>,
+    /// What shafts add.
+    pub(super) shafts: Option<ShaftsAlong<'a>>,
 }
 
 /// The deflated pencil of a mode.
@@ -88,7 +89,12 @@ enum Sides {
 }
 
 impl<'a> Shapes<'a> {
-    pub(super) fn new(at: &'a Equilibrium, modes: &'a Modes, position: usize) -> Result<Self, Error> {
+    pub(super) fn new(
+        mechanism: &'a dyn Kernels,
+        at: &'a Equilibrium,
+        modes: &'a Modes,
+        position: usize,
+    ) -> Result<Self, Error> {
         check_modes(at, modes)?;
         let Some(mode) = modes.modes.get(position) else {
             return Err(Error::NoSuchMode { mode: position, count: modes.modes.len() });
@@ -99,6 +105,7 @@ impl<'a> Shapes<'a> {
         }
         let family = modes.family;
         let linear = &at.linear;
+        let shafts = ShaftsAlong::of(mechanism, at, mode.s)?;
         let motions = Structure::of(&at.description).motions();
         let (size, leading) = Normalisation::of(&at.description);
         let scale = scale(linear, motions, mode);
@@ -112,25 +119,36 @@ impl<'a> Shapes<'a> {
                 Side::new(linear, pencil, (&shape, slope), scale, normalised).map(|side| Sides::Undamped(side.into()))
             }
             Family::General => {
-                let side = |linear: &Linear, shape: &[Complex], leading: usize| {
+                let side = |linear: &Linear, shape: &[Complex], leading: usize, is_left: bool| {
                     let pencil = |i: usize, j: usize| {
                         let (m, c) = (linear.mass[i][j], linear.damping[i][j]);
-                        mode.s * (mode.s * m + c) + linear.stiffness[i][j]
+                        let of_shafts = shafts.as_ref().map_or(Complex::ZERO, |own| own.entry([i, j], is_left));
+                        mode.s * (mode.s * m + c) + linear.stiffness[i][j] + of_shafts
                     };
-                    let slope = pencil_slope_times(linear, mode.s, shape);
+                    let mut slope = pencil_slope_times(linear, mode.s, shape);
+                    if let Some(own) = &shafts {
+                        own.add_slope_times(Complex::ONE, shape, is_left, &mut slope);
+                    }
                     let normalised = (size, first_of(shape, leading));
                     Side::new(linear, pencil, (shape, slope), scale, normalised)
                 };
-                let right = side(linear, &mode.shape, leading.right);
-                let left = side(&transposed(linear), mode.left(), leading.left);
+                let right = side(linear, &mode.shape, leading.right, false);
+                let left = side(&transposed(linear), mode.left(), leading.left, true);
                 right.zip(left).map(|(right, left)| Sides::General { right: right.into(), left: left.into() })
             }
         };
-        Ok(Self { linear, mode, sides: sides.ok_or(clustered)?, rate: Rate::of(at, family, mode) })
+        let rate = Rate::of(at, family, mode, shafts.as_ref());
+        Ok(Self { mode, sides: sides.ok_or(clustered)?, rate, shafts })
     }
 
-    /// Derivatives of the right and the left shape when the matrices change by `change` and the eigenvalue by `rate`.
-    pub(super) fn along(&self, change: &Linear, rate: Complex) -> (Vector<Complex>, Vector<Complex>) {
+    /// Derivative of the eigenvalue by a variable, along which the compiled matrices change by `change`.
+    pub(super) fn rate_along(&self, variable: usize, change: &Linear) -> Complex {
+        self.rate.along(change) + self.shafts.as_ref().map_or(Complex::ZERO, |own| self.rate.of_shafts(own, variable))
+    }
+
+    /// Derivatives of the right and the left shape by a variable, along which the compiled matrices change by `change` and
+    /// the eigenvalue by `rate`.
+    pub(super) fn along(&self, variable: usize, change: &Linear, rate: Complex) -> (Vector<Complex>, Vector<Complex>) {
         let mode = self.mode;
         match &self.sides {
             Sides::Undamped(side) => {
@@ -141,19 +159,16 @@ impl<'a> Shapes<'a> {
                 (right.clone(), right)
             }
             Sides::General { right, left } => {
-                let moved = |linear: &Linear, change: &Linear, shape: &[Complex]| {
-                    let direct = pencil_times(change, mode.s, shape);
-                    let slope = pencil_slope_times(linear, mode.s, shape);
-                    Vector::from_fn(shape.len(), |i| -direct[i] - rate * slope[i])
+                let moved = |side: &Side<Complex>, change: &Linear, is_left: bool| {
+                    let mut direct = pencil_times(change, mode.s, &side.shape);
+                    if let Some(own) = &self.shafts {
+                        own.add_times(variable, &side.shape, is_left, &mut direct);
+                    }
+                    Vector::from_fn(direct.len(), |i| -direct[i] - rate * side.slope[i])
                 };
-                let right = right.nelson_derivative(
-                    &moved(self.linear, change, &mode.shape),
-                    &times_complex(&change.mass, &mode.shape),
-                );
-                let left = left.nelson_derivative(
-                    &moved(&transposed(self.linear), &transposed(change), mode.left()),
-                    &times_complex(&change.mass, mode.left()),
-                );
+                let moved = [moved(right, change, false), moved(left, &transposed(change), true)];
+                let right = right.nelson_derivative(&moved[0], &times_complex(&change.mass, &mode.shape));
+                let left = left.nelson_derivative(&moved[1], &times_complex(&change.mass, mode.left()));
                 (right, left)
             }
         }

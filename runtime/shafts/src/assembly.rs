@@ -84,6 +84,26 @@ impl Assembly {
         &self.spans
     }
 
+    /// The sum of the stiffnesses of the elements of a span over its mass, the greatest of all, 1/s^2: so large are the terms,
+    /// beside the square of an eigenvalue, that cancel between its ends.
+    #[must_use]
+    pub fn terms(&self) -> f64 {
+        let of_span = |span: &Span| {
+            let each = (0..span.sections.len()).map(|k| {
+                let (own, pieces) = (span.element(k), span.sections[k].1 as f64);
+                let stiffness = match span.line {
+                    Line::Timoshenko => own.shear / own.length,
+                    Line::Slender => 12.0 * own.stiffness / own.length.powi(3),
+                    Line::Bar => own.stiffness / own.length,
+                };
+                [pieces * stiffness, pieces * own.mass * own.length]
+            });
+            let [stiffness, mass] = each.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+            stiffness / mass
+        };
+        self.spans.iter().map(of_span).fold(0.0, f64::max)
+    }
+
     pub(crate) fn classes_of(&self, line: Line) -> &'static [Class; 2] {
         classes(line, self.degree)
     }

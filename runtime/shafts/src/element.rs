@@ -54,7 +54,8 @@ impl Shape {
 impl Element {
     pub(crate) fn new(classes: &[Class; 2], shape: Shape, k: &[Complex; TERMS]) -> Self {
         let mut factors = Vec::with_capacity(32);
-        let blocks = blocks(classes, shape, k, Some(&mut factors));
+        let slope = (shape.slope != 1.0).then(|| shape.slope.into());
+        let blocks = blocks(classes, (shape.components, slope), k, Some(&mut factors));
         Self { blocks, factors, sizes: [classes[0].size, classes[1].size], shape }
     }
 
@@ -126,15 +127,14 @@ pub(crate) fn turned(phase: Complex, by: Complex) -> Complex {
 }
 
 /// The blocks between the nodes of an element whose inner unknowns are eliminated, class by class. `keep` gets the factors of
-/// each class.
+/// each class. Of the nodes: the number of unknowns, and what the slope there is multiplied by to be one on `[-1, 1]`, if it is not.
 #[inline(always)]
 pub(crate) fn blocks<T: Number>(
     classes: &[Class; 2],
-    shape: Shape,
+    (c, slope): (usize, Option<T>),
     k: &[T; TERMS],
     mut keep: Option<&mut Vec<T>>,
 ) -> Ends<T> {
-    let c = shape.components;
     let mut blocks = [[[[T::zero(); 2]; 2]; 2]; 2];
     for (number, class) in classes.iter().enumerate() {
         let nodal = if class.size <= SMALL {
@@ -144,7 +144,12 @@ pub(crate) fn blocks<T: Number>(
         };
         for a in 0..c {
             for b in 0..c {
-                let value = nodal[a][b].times(shape.half(a) * shape.half(b));
+                let mut value = nodal[a][b].times(0.25);
+                if let Some(slope) = slope {
+                    for _ in 0..a + b {
+                        value = value * slope;
+                    }
+                }
                 let (first, second) = (&SIGNS[number][a], &SIGNS[number][b]);
                 for p in 0..2 {
                     for q in 0..2 {

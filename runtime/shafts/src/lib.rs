@@ -11,6 +11,7 @@ mod number;
 mod pencil;
 mod section;
 mod span;
+mod varied;
 
 pub use assembly::{Assembly, At, Condensed, SpanGradient};
 pub use eigentol_numerics::{Complex, Matrix};
@@ -20,3 +21,4 @@ pub use motion::Motion;
 pub use pencil::Pencil;
 pub use section::{Line, Number, Section};
 pub use span::{Place, Span};
+pub use varied::{Changes, LUMPED, Second, Varied, lumped};

@@ -39,10 +39,16 @@ const RIGID: f64 = 1e-4;
 const TURN: f64 = 0.9;
 /// Distance of equal eigenvalues as a part of them.
 const SAME: f64 = 1e-7;
-/// How far beside an eigenvalue another one with the same value is looked for, as a part of it.
-const APART: f64 = 1e-9;
-/// What is left of a unit vector without a mode, below which no other has its eigenvalue.
+/// Distance of eigenvalues, as a part of them, below which steps do not tell their modes from combinations.
+const BLENDED: f64 = 1e-5;
+/// Rounding of an eigenvalue in units of that of the terms.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// How far beside an eigenvalue another one near it is looked for, as a part of it.
+const APART: f64 = 1e-7;
+/// What is left of a unit vector without the known modes, below which no other is near.
 const ALONE: f64 = 1e-3;
+/// Most modes that one is looked for beside.
+const EQUAL: usize = 4;
 /// The most motions that grow without oscillating which are looked for.
 const DIVERGENT: usize = 12;
 /// The shift as a part of a typical frequency: rigid motions have none.
@@ -93,7 +99,16 @@ impl Assembly {
                 modes.push(mode);
             }
         }
-        modes.extend(self.equal(&modes));
+        for _ in 0..EQUAL {
+            let others = self.others(&modes);
+            if others.is_empty() {
+                break;
+            }
+            modes.extend(others);
+            let mut all: Vec<&mut Mode> = modes.iter_mut().collect();
+            self.separate_each(&mut all);
+        }
+        modes.retain(|mode| wanted(mode.s));
         Ok((modes, lost))
     }
 
@@ -132,36 +147,44 @@ impl Assembly {
         Some(turns.round().max(0.0) as usize)
     }
 
-    /// Other modes with the same eigenvalues, as each of a round rotor at rest has: a Krylov space knows one of them. They are
-    /// what inverse iteration leaves of a motion without the known mode, where that is anything.
-    fn equal(&self, modes: &[Mode]) -> Vec<Mode> {
-        let s: Vec<Complex> = modes.iter().map(|mode| mode.s * (1.0 + APART)).collect();
-        let (mut known, mut starts) = (Vec::new(), Vec::new());
-        for ((mode, pencil), s) in modes.iter().zip(self.pencils(&s)).zip(s) {
+    /// Another mode with an eigenvalue near each of these, where there is one: of a round rotor at rest each has an equal one, at
+    /// low speeds a near one, and a Krylov space may know one of them only. It is what inverse iteration leaves of a motion
+    /// without the known modes, where that is anything.
+    fn others(&self, modes: &[Mode]) -> Vec<Mode> {
+        let near = |a: &Mode, b: &Mode| (a.s - b.s).norm() < APART / ALONE * a.s.norm();
+        let first = |k: &usize| !modes[..*k].iter().any(|other| near(other, &modes[*k]));
+        let places: Vec<usize> = (0..modes.len()).filter(first).collect();
+        let s: Vec<Complex> = places.iter().map(|k| modes[*k].s * (1.0 + APART)).collect();
+        let mut starts = Vec::new();
+        for ((place, pencil), s) in places.into_iter().zip(self.pencils(&s)).zip(s) {
             let Some(factors) = factored(&pencil) else { continue };
             let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0, 0.3 * (k % 3) as f64));
-            let below = dot_complex(&mode.left, &times(&pencil.slope, &mode.right));
             let mut right = factors.solve(&ones);
-            normalised(&mut right);
-            let share = dot_complex(&mode.left, &times(&pencil.slope, &right)) / below;
-            right.iter_mut().zip(&mode.right).for_each(|(x, known)| *x -= share * known);
             let mut left = factors.solve_transposed(&ones);
+            normalised(&mut right);
             normalised(&mut left);
-            let share = dot_complex(&left, &times(&pencil.slope, &mode.right)) / below;
-            left.iter_mut().zip(&mode.left).for_each(|(y, known)| *y -= share * known);
-            // What is left where the eigenvalue is single is smaller by the distance from it as a part of that to the next.
+            for known in modes.iter().filter(|other| near(&modes[place], other)) {
+                let moved = times(&pencil.slope, &known.right);
+                let below = dot_complex(&known.left, &moved);
+                let share = dot_complex(&known.left, &times(&pencil.slope, &right)) / below;
+                right.iter_mut().zip(&known.right).for_each(|(x, known)| *x -= share * known);
+                let share = dot_complex(&left, &moved) / below;
+                left.iter_mut().zip(&known.left).for_each(|(y, known)| *y -= share * known);
+            }
+            // What is left where no other is near is smaller by the distance from the known one as a part of that to the next.
             if normalised(&mut right) < 1.0 / ALONE && normalised(&mut left) < 1.0 / ALONE {
-                known.push(mode);
                 starts.push(Mode { s, right, left });
             }
         }
         // Once more: beside an eigenvalue already the first step is small.
-        let once: Vec<(&Mode, Mode)> =
-            known.into_iter().zip(self.refined(&starts)).filter_map(|(known, found)| Some((known, found?))).collect();
-        let starts: Vec<Mode> = once.iter().map(|(_, found)| found.clone()).collect();
-        let again = once.iter().zip(self.refined(&starts));
-        let second = again.filter_map(|((known, _), found)| found.filter(|x| x.is_near(known) && !x.is_same(known)));
-        second.collect()
+        let once: Vec<Mode> = self.refined(&starts).into_iter().flatten().collect();
+        let mut others: Vec<Mode> = Vec::new();
+        for found in self.refined(&once).into_iter().flatten() {
+            if !modes.iter().chain(&others).any(|known| known.is_same(&found)) {
+                others.push(found);
+            }
+        }
+        others
     }
 
     /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
@@ -212,7 +235,61 @@ impl Assembly {
         for (place, found) in found.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
             *found = self.with_all_unknowns(&starts[place]);
         }
+        let mut all: Vec<&mut Mode> = found.iter_mut().flatten().collect();
+        self.separate_each(&mut all);
         found
+    }
+
+    fn separate_each(&self, modes: &mut [&mut Mode]) {
+        for k in 0..modes.len() {
+            let (before, own) = modes.split_at_mut(k);
+            before.iter_mut().for_each(|other| self.separate(other, own[0]));
+        }
+    }
+
+    /// Makes two modes with nearly the same eigenvalue exact: where that is far from all others, steps are small for any
+    /// combination of the two. Those that are modes follow from the two alone (Rayleigh and Ritz).
+    fn separate(&self, a: &mut Mode, b: &mut Mode) {
+        if (a.s - b.s).norm() > BLENDED * a.s.norm() {
+            return;
+        }
+        let mean = 0.5 * (a.s + b.s);
+        let Some(Pencil { matrix, slope }) = self.pencils(&[mean]).pop() else { return };
+        let form =
+            |matrix: &Matrix<Complex>, left: &Mode, right: &Mode| dot_complex(&left.left, &times(matrix, &right.right));
+        let all = |m: &Matrix<Complex>| [[form(m, a, a), form(m, a, b)], [form(m, b, a), form(m, b, b)]];
+        let ([[p, q], [r, t]], [[e, f], [g, h]]) = (all(&matrix), all(&slope));
+        let below = e * h - f * g;
+        if below.norm() < ALONE * ALONE * (e * h).norm() {
+            return;
+        }
+        // The determinant of the first and a number times the second.
+        let half = -0.5 * (p * h + e * t - q * g - f * r) / below;
+        let root = (half * half - (p * t - q * r) / below).sqrt();
+        let rounding = ROUNDING * (mean.norm() + self.terms() / mean.norm());
+        if root.norm() <= rounding {
+            return;
+        }
+        let combined = |change: Complex| {
+            let [[p, q], [r, t]] = [[p + change * e, q + change * f], [r + change * g, t + change * h]];
+            // From the larger row, and the larger column.
+            let right = if p.norm() + q.norm() > r.norm() + t.norm() { [q, -p] } else { [t, -r] };
+            let left = if p.norm() + r.norm() > q.norm() + t.norm() { [r, -p] } else { [t, -q] };
+            let sum = |[x, y]: [Complex; 2], of: fn(&Mode) -> &Vector<Complex>| {
+                let mut sum = Vector::from_fn(of(a).len(), |k| x * of(a)[k] + y * of(b)[k]);
+                normalised(&mut sum);
+                sum
+            };
+            Mode { s: mean + change, right: sum(right, |mode| &mode.right), left: sum(left, |mode| &mode.left) }
+        };
+        let both = [combined(half + root), combined(half - root)];
+        let exact = both.map(|mode| {
+            let pencil = self.pencils(&[mode.s]).pop()?;
+            self.step(mode, pencil).filter(|(_, step)| *step < CLOSE)
+        });
+        if let [Some((first, _)), Some((second, _))] = exact {
+            (*a, *b) = (first, second);
+        }
     }
 
     /// The same with all unknowns in place of those of the stations: `T` has poles where spans vibrate between stations that

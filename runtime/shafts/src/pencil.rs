@@ -109,7 +109,8 @@ fn between<R: Real>(assembly: &Assembly, span: usize, direction: usize, s: Pair<
     let (classes, components) = (assembly.classes_of(own.line), own.components());
     let mut elements = Vec::with_capacity(own.sections.len());
     for (section, coefficients) in assembly.different(span, direction) {
-        elements.push(blocks(classes, own.shape(section), &at(coefficients, s), None));
+        let slope = own.slope_is_length().then(|| Pair::of(own.shape(section).slope.into()));
+        elements.push(blocks(classes, (components, slope), &at(coefficients, s), None));
     }
     let mut pieces = assembly.pieces(span);
     let mut ends = elements[pieces.next().unwrap_or_default()];

@@ -2,6 +2,8 @@
 
 use eigentol_numerics::Complex;
 
+use crate::number::Number as Field;
+
 /// What a line of a shaft does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Line {
@@ -59,7 +61,43 @@ impl Number {
 }
 
 /// Each coefficient of a line as a polynomial in `s`: constant, linear and quadratic part.
-pub(crate) type Coefficients = [[Complex; 3]; TERMS];
+pub(crate) type Coefficients<T = Complex> = [[T; 3]; TERMS];
+
+/// The coefficients of a section with these numbers at a speed, for `y + i z`; for `y - i z` the speed changes its sign. They
+/// are those of the mass of deflection, the mass of rotation (with the stiffness of shear), bending, the slope of deflection, and
+/// shear; of a slender line the deflection, its slope and its curvature; of a bar the deflection and its slope.
+#[inline(always)]
+pub(crate) fn coefficients<T: Field>(line: Line, numbers: &[T; Number::ALL.len()], speed: T) -> Coefficients<T> {
+    let [length, stiffness, shear, mass, rotary, lag, tension, drag] = *numbers;
+    let half = length.times(0.5);
+    let per_half = half.inverse();
+    let turning = speed * T::of(Complex::I);
+    let none = T::zero();
+    let inertia = [none, half * drag, half * mass];
+    let turns = |scale: T| [none, -(turning * scale * rotary).times(2.0), scale * rotary];
+    let elastic = |x: T| [x - x * lag * turning, x * lag, none];
+    let plus = |[a, b, c]: [T; 3], x: T| [a + x, b, c];
+    match line {
+        Line::Timoshenko => [
+            inertia,
+            plus(turns(half), half * shear),
+            elastic(stiffness * per_half),
+            [(shear + tension) * per_half, none, none],
+            [-shear, none, none],
+        ],
+        Line::Slender => [
+            inertia,
+            plus(turns(per_half), tension * per_half),
+            elastic(stiffness * per_half * per_half * per_half),
+            [none; 3],
+            [none; 3],
+        ],
+        // What twists turns with the shaft: its damping does not.
+        Line::Bar => {
+            [inertia, [stiffness * per_half, stiffness * lag * per_half, none], [none; 3], [none; 3], [none; 3]]
+        }
+    }
+}
 
 impl Section {
     /// A number of the section.
@@ -83,43 +121,10 @@ impl Section {
         }
     }
 
-    /// The coefficients at a speed, for `y + i z`; for `y - i z` the speed changes its sign. They are those of the mass
-    /// of deflection, the mass of rotation (with the stiffness of shear), bending, the slope of deflection, and shear; of
-    /// a slender line the deflection, its slope and its curvature; of a bar the deflection and its slope.
+    /// [`coefficients`] of the section.
     #[inline]
     pub(crate) fn coefficients(&self, line: Line, speed: f64) -> Coefficients {
-        let half = self.length / 2.0;
-        let real = |x: f64| Complex::new(x, 0.0);
-        let turning = Complex::new(0.0, speed);
-        let zero = [Complex::ZERO; 3];
-        let inertia = [Complex::ZERO, real(half * self.drag), real(half * self.mass)];
-        let rotary = |scale: f64| [Complex::ZERO, -2.0 * turning * (scale * self.rotary), real(scale * self.rotary)];
-        let elastic = |x: f64| [real(x) * (1.0 - self.lag * turning), real(x * self.lag), Complex::ZERO];
-        let plus = |[a, b, c]: [Complex; 3], x: f64| [a + x, b, c];
-        match line {
-            Line::Timoshenko => [
-                inertia,
-                plus(rotary(half), half * self.shear),
-                elastic(self.stiffness / half),
-                [real((self.shear + self.tension) / half), Complex::ZERO, Complex::ZERO],
-                [real(-self.shear), Complex::ZERO, Complex::ZERO],
-            ],
-            Line::Slender => [
-                inertia,
-                plus(rotary(1.0 / half), self.tension / half),
-                elastic(self.stiffness / (half * half * half)),
-                zero,
-                zero,
-            ],
-            // What twists turns with the shaft: its damping does not.
-            Line::Bar => [
-                inertia,
-                [real(self.stiffness / half), real(self.stiffness * self.lag / half), Complex::ZERO],
-                zero,
-                zero,
-                zero,
-            ],
-        }
+        coefficients(line, &Number::ALL.map(|number| self.number(number).into()), speed.into())
     }
 
     /// Derivative of the coefficients by a number.

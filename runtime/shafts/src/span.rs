@@ -60,8 +60,13 @@ impl Span {
         own
     }
 
+    /// Whether the unknowns of a node are its deflection and its slope times half the length.
+    pub(crate) fn slope_is_length(&self) -> bool {
+        self.line == Line::Slender
+    }
+
     pub(crate) fn shape(&self, section: usize) -> Shape {
-        let slope = if self.line == Line::Slender { self.element(section).length / 2.0 } else { 1.0 };
+        let slope = if self.slope_is_length() { self.element(section).length / 2.0 } else { 1.0 };
         Shape { components: self.components(), slope }
     }
 

@@ -6,7 +6,11 @@
 //! vibrations of a mechanism with shafts are those of `T`; its equilibrium is that of the compiled equations.
 
 use eigentol_contract::{LineKind, SpanInfo};
-use eigentol_shafts::{Assembly, Line, Number, Section, Span, SpanGradient};
+use eigentol_shafts::{Assembly, LUMPED, Line, Number, Section, Span, SpanGradient, lumped};
+
+mod along;
+
+pub use self::along::ShaftsAlong;
 
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{Kernels, Second};
@@ -16,8 +20,6 @@ use crate::{Complex, Description, Equilibrium, Error, Mode};
 /// The degree of the polynomials in each element, and where sections do not shear: their deflection alone has both.
 const DEGREE: usize = 4;
 const SLENDER: usize = 7;
-/// The inertia of a slope of a span, as a part of its mass times the square of its length.
-const LUMPED: f64 = 1.0 / 52.5;
 
 /// What the shafts of a mechanism add at one state.
 #[doc(hidden)]
@@ -30,45 +32,44 @@ pub struct Shafts {
 
 /// The numbers of the spans of a mechanism; see [`Mechanism::spans`](eigentol_contract::Mechanism::spans).
 pub(crate) fn numbers(mechanism: &dyn Kernels, description: &Description, u: &[f64], b: &[f64]) -> Vector {
-    let constant = |values: &[f64]| values.iter().map(|&value| second(value, 0.0)).collect::<Vec<Second>>();
-    let mut numbers = vec![second(0.0, 0.0); description.spans.iter().map(SpanInfo::count).sum()];
-    if !numbers.is_empty() {
-        mechanism.spans_into(&constant(u), &constant(b), &mut numbers);
-    }
+    let numbers = numbers_along(mechanism, description, [u, b], [None; 2]);
     numbers.iter().map(|number| number.value.value).collect()
 }
 
-fn second(value: f64, slope: f64) -> Second {
-    Dual { value: Dual { value, slope }, slope: Dual { value: 0.0, slope: 0.0 } }
+/// The same along a first and a second variable, inputs and then design variables.
+fn numbers_along(
+    mechanism: &dyn Kernels,
+    description: &Description,
+    [u, b]: [&[f64]; 2],
+    along: [Option<usize>; 2],
+) -> Vec<Second> {
+    let value = |(k, value): (usize, &f64)| {
+        let [first, next] = along.map(|own| f64::from(u8::from(own == Some(k))));
+        let fixed = |value: f64| Dual { value, slope: 0.0 };
+        Dual { value: Dual { value: *value, slope: first }, slope: fixed(next) }
+    };
+    let all: Vec<Second> = u.iter().chain(b).enumerate().map(value).collect();
+    let mut numbers = vec![Second::default(); description.spans.iter().map(SpanInfo::count).sum()];
+    if !numbers.is_empty() {
+        let (u, b) = all.split_at(u.len());
+        mechanism.spans_into(u, b, &mut numbers);
+    }
+    numbers
 }
 
 /// Derivatives of the numbers of the spans by inputs and design variables: a row for each variable.
 #[must_use]
 fn number_slopes(mechanism: &dyn Kernels, at: &Equilibrium) -> Matrix {
-    let (inputs, design) = (at.inputs.len(), at.design.len());
-    let mut slopes = Matrix::zeros(inputs + design, at.spans.len());
-    if at.spans.is_empty() {
-        return slopes;
-    }
-    let values = |from: &[f64]| from.iter().map(|&value| second(value, 0.0)).collect::<Vec<Second>>();
-    let (mut u, mut b) = (values(&at.inputs), values(&at.design));
-    let mut numbers = vec![second(0.0, 0.0); at.spans.len()];
-    let place = |k: usize, u: &mut [Second], b: &mut [Second], set: &dyn Fn(&mut Second)| match k.checked_sub(inputs) {
-        None => set(&mut u[k]),
-        Some(k) => set(&mut b[k]),
-    };
+    let variables = at.inputs.len() + at.design.len();
+    let mut slopes = Matrix::zeros(variables, at.spans.len());
     // Two variables at a time: the first and the second slope of a number with both.
-    for first in (0..inputs + design).step_by(2) {
-        let other = (first + 1 < inputs + design).then_some(first + 1);
-        place(first, &mut u, &mut b, &|x| x.value.slope = 1.0);
-        other.into_iter().for_each(|k| place(k, &mut u, &mut b, &|x| x.slope.value = 1.0));
-        mechanism.spans_into(&u, &b, &mut numbers);
+    for first in (0..variables).step_by(2).filter(|_| !at.spans.is_empty()) {
+        let next = (first + 1 < variables).then_some(first + 1);
+        let numbers = numbers_along(mechanism, &at.description, [&at.inputs, &at.design], [Some(first), next]);
         slopes[first].iter_mut().zip(&numbers).for_each(|(to, number)| *to = number.value.slope);
-        if let Some(k) = other {
-            slopes[k].iter_mut().zip(&numbers).for_each(|(to, number)| *to = number.slope.value);
-            place(k, &mut u, &mut b, &|x| x.slope.value = 0.0);
+        if let Some(next) = next {
+            slopes[next].iter_mut().zip(&numbers).for_each(|(to, number)| *to = number.slope.value);
         }
-        place(first, &mut u, &mut b, &|x| x.value.slope = 0.0);
     }
     slopes
 }
@@ -84,12 +85,12 @@ impl Shafts {
         }
         let wrong = |error: eigentol_shafts::Error| Error::Shaft { reason: error.to_string().into() };
         let n = at.coordinates.len();
-        let mut numbers = &at.spans[..];
         let expected = at.description.spans.iter().map(SpanInfo::count).sum();
-        if numbers.len() != expected {
-            return Err(Error::WrongLength { kind: "numbers of shafts", found: numbers.len(), expected });
+        if at.spans.len() != expected {
+            return Err(Error::WrongLength { kind: "numbers of shafts", found: at.spans.len(), expected });
         }
-        let spans: Vec<Span> = at.description.spans.iter().map(|info| span(info, &mut numbers)).collect();
+        let infos = at.description.spans.iter().zip(each_of(&at.description, &at.spans));
+        let spans: Vec<Span> = infos.map(|(info, own)| span(info, own)).collect();
         let slender = spans.iter().any(|span| span.line == Line::Slender);
         let degree = if slender { SLENDER } else { DEGREE };
         let zeros = || [(); 3].map(|()| Matrix::zeros(n, n));
@@ -98,8 +99,13 @@ impl Shafts {
         let at_rest = Matrix::from_fn(n, n, |i, j| at_rest[i][j].re);
         let linear = &at.linear;
         let mut mass = linear.mass.clone();
-        for (i, lumped) in lumped(&spans, n).into_iter().enumerate() {
-            mass[i][i] -= lumped;
+        for (span, own) in spans.iter().zip(each_of(&at.description, &at.spans)) {
+            let lumped = lumped(own);
+            for (k, place) in span.ends.iter().flat_map(|end| end.iter().enumerate()) {
+                if let Some((index, _)) = place {
+                    mass[*index][*index] -= lumped[k % 2];
+                }
+            }
         }
         let stiffness = Matrix::from_fn(n, n, |i, j| linear.stiffness[i][j] - at_rest[i][j]);
         let whole = Assembly::new(spans, [mass, linear.damping.clone(), stiffness], degree).map_err(wrong)?;
@@ -188,10 +194,18 @@ pub fn refuse(of: &Description, what: &'static str) -> Result<(), Error> {
     if of.spans.is_empty() { Ok(()) } else { Err(Error::NotWithShafts { what: what.into() }) }
 }
 
-/// A span with the first of these numbers.
-fn span(info: &SpanInfo, numbers: &mut &[f64]) -> Span {
-    let (own, rest) = numbers.split_at(info.count());
-    *numbers = rest;
+/// The numbers of each span.
+fn each_of<'a, T>(description: &Description, mut numbers: &'a [T]) -> Vec<&'a [T]> {
+    let own = |info: &SpanInfo| {
+        let (own, rest) = numbers.split_at(info.count());
+        numbers = rest;
+        own
+    };
+    description.spans.iter().map(own).collect()
+}
+
+/// A span with these numbers.
+fn span(info: &SpanInfo, own: &[f64]) -> Span {
     let line = match info.line {
         LineKind::Timoshenko => Line::Timoshenko,
         LineKind::Slender => Line::Slender,
@@ -214,22 +228,6 @@ fn span(info: &SpanInfo, numbers: &mut &[f64]) -> Span {
     };
     let end = |motions: &[(usize, f64)]| core::array::from_fn(|k| motions.get(k).copied());
     Span { line, speed: own[0], sections: sections.map(section).collect(), ends: info.ends.each_ref().map(|x| end(x)) }
-}
-
-/// What the compiled equations have as inertia of the spans at the unknowns of their stations.
-fn lumped(spans: &[Span], n: usize) -> Vector {
-    let mut all = Vector::zeros(n);
-    for span in spans {
-        let sum = |of: fn(&Section) -> f64| span.sections.iter().map(|(own, _)| of(own)).sum::<f64>();
-        let (length, mass) = (sum(|own| own.length), sum(|own| own.mass * own.length));
-        let turned = sum(|own| own.rotary * own.length) + LUMPED * mass * length * length;
-        for (k, place) in span.ends.iter().flat_map(|end| end.iter().enumerate()) {
-            if let Some((index, _)) = place {
-                all[*index] += 0.5 * if k % 2 == 0 { mass } else { turned };
-            }
-        }
-    }
-    all
 }
 
 /// Derivatives by the numbers of a span: in motion, less those at rest and of the lumped inertia, whose `weight` at each

@@ -14,7 +14,7 @@ use crate::sensitivity::{
     BilinearForm, ComplexGradient, Direction, ModeSensitivity, Quantity, Slopes, directions, eigenvalue_curvature,
     eigenvalue_slope, form_gradient, form_gradients_along, normaliser, outside_domain,
 };
-use crate::shafts::refuse;
+use crate::shafts::ShaftsAlong;
 use crate::shapes::Shapes;
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
@@ -118,7 +118,9 @@ pub(super) fn mode_curvatures(
                         }
                         Family::General => {
                             for pending in &mut ready {
-                                let rows = pending.gradient.along((directions, &shift), &changes, &pending.shapes);
+                                let first = pending.rows.len();
+                                let rows =
+                                    pending.gradient.along((directions, &shift), (first, &changes), &pending.shapes);
                                 pending.rows.extend(rows);
                             }
                         }
@@ -159,12 +161,12 @@ impl<'a> PendingMode<'a> {
         modes: &'a Modes,
         position: usize,
     ) -> Result<Self, Error> {
-        let shapes = Shapes::new(at, modes, position)?;
+        let shapes = Shapes::new(mechanism, at, modes, position)?;
         let mode = &modes.modes[position];
         Ok(Self {
             position,
             mode,
-            gradient: AdjointGradient::new(mechanism, at, modes.family, mode)?,
+            gradient: AdjointGradient::new(mechanism, at, modes.family, (mode, shapes.shafts.as_ref()))?,
             shapes,
             rows: Vec::new(),
         })
@@ -258,6 +260,8 @@ struct AdjointGradient<'a> {
     numerator: Slopes<Complex>,
     /// `d`.
     denominator: Complex,
+    /// Second derivatives of `a` by the numbers of shafts.
+    of_shafts: Option<Matrix<Complex>>,
 }
 
 impl<'a> AdjointGradient<'a> {
@@ -265,9 +269,8 @@ impl<'a> AdjointGradient<'a> {
         mechanism: &'a dyn CurvatureKernels,
         at: &'a Equilibrium,
         family: Family,
-        mode: &'a Mode,
+        (mode, shafts): (&'a Mode, Option<&ShaftsAlong<'_>>),
     ) -> Result<Self, Error> {
-        refuse(&at.description, "second derivatives of modes")?;
         let adjoint = Adjoint::new(mechanism, at)?;
         let kernels: &dyn Kernels = mechanism;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
@@ -282,6 +285,12 @@ impl<'a> AdjointGradient<'a> {
             }
         }
         let w = total[..parts(family)].iter_mut().map(|part| adjoint.total(part, &mut room[0])).collect();
+        let (mut numerator, mut denominator) = (joined(&total), normaliser(at, None, mode));
+        if let Some(own) = shafts {
+            let form = |matrix: &Matrix<Complex>| own.form(matrix, mode.left(), &mode.shape);
+            denominator += form(&own.slope);
+            numerator.iter_mut().zip(&own.by).for_each(|(n, [by, _])| *n += form(by));
+        }
         Ok(Self {
             mechanism,
             at,
@@ -289,8 +298,9 @@ impl<'a> AdjointGradient<'a> {
             mode,
             adjoint,
             w,
-            numerator: joined(&total),
-            denominator: normaliser(at, None, mode),
+            numerator,
+            denominator,
+            of_shafts: shafts.map(|own| own.second(mode.left(), &mode.shape)),
         })
     }
 
@@ -331,21 +341,35 @@ impl<'a> AdjointGradient<'a> {
         changes.into_iter().map(slopes).collect()
     }
 
-    /// The derivatives of [`Self::slopes`] of a general mode along directions, along which the matrices change as given.
+    /// The derivatives of [`Self::slopes`] of a general mode along directions, from the first given one on, along which the
+    /// matrices change as given.
     fn along(
         &self,
         (directions, shift): (&[Direction], &Matrix),
-        changes: &[Linear],
+        (first, changes): (usize, &[Linear]),
         shapes: &Shapes<'_>,
     ) -> Vec<Slopes<Complex>> {
         let (mechanism, mode) = (self.mechanism, self.mode);
+        let mut of_shafts = Vec::new();
         let (ratios, moved): (Vec<Complex>, Vec<(&Direction, BilinearForm)>) = directions
             .iter()
             .zip(changes)
-            .map(|(direction, change)| {
-                let rate = shapes.rate.along(change);
-                let (dphi, dpsi) = shapes.along(change, rate);
-                let ratio = self.denominator_along(change, rate, &dphi, &dpsi) / self.denominator;
+            .enumerate()
+            .map(|(k, (direction, change))| {
+                let variable = first + k;
+                let rate = shapes.rate_along(variable, change);
+                let (dphi, dpsi) = shapes.along(variable, change, rate);
+                let mut denominator = self.denominator_along(change, rate, &dphi, &dpsi);
+                if let Some(own) = &shapes.shafts {
+                    let (phi, psi) = (&mode.shape[..], mode.left());
+                    let moves = |matrix: &Matrix<Complex>| own.form(matrix, &dpsi, phi) + own.form(matrix, psi, &dphi);
+                    denominator += moves(&own.slope)
+                        + rate * own.form(&own.curvature, psi, phi)
+                        + own.form(&own.by[variable][1], psi, phi);
+                    let each = own.by.iter().map(|[by, mixed]| moves(by) + rate * own.form(mixed, psi, phi));
+                    of_shafts.push(each.collect::<Vec<Complex>>());
+                }
+                let ratio = denominator / self.denominator;
                 (ratio, (direction, BilinearForm::along(mode, &dpsi, rate, &dphi)))
             })
             .unzip();
@@ -355,12 +379,14 @@ impl<'a> AdjointGradient<'a> {
             self.adjoint.total_along_each(changes, w, directions, (shift, &mut room));
         }
         let [re, im] = totals;
-        let each = re.into_iter().zip(im).zip(ratios);
-        each.map(|((re, im), ratio)| {
+        let each = re.into_iter().zip(im).zip(ratios).enumerate();
+        each.map(|(k, ((re, im), ratio))| {
             let mut slopes = joined(&[re, im]);
-            let n = &self.numerator;
-            let inputs = slopes.by_input.iter_mut().zip(&n.by_input);
-            for (dn, n) in inputs.chain(slopes.by_design.iter_mut().zip(&n.by_design)) {
+            if let (Some(second), Some(own)) = (&self.of_shafts, of_shafts.get(k)) {
+                let all = slopes.iter_mut().zip(&second[first + k]).zip(own);
+                all.for_each(|((dn, second), own)| *dn += second + own);
+            }
+            for (dn, n) in slopes.iter_mut().zip(self.numerator.iter()) {
                 *dn = (ratio * n - *dn) / self.denominator;
             }
             slopes

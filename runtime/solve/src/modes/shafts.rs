@@ -77,7 +77,7 @@ impl Shafts {
     pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode]) -> Option<Vec<Mode>> {
         let found = self.followed(nearby).or_else(|| self.whole.modes(MODES).ok())?;
         let places: Vec<Complex> = found.iter().map(|own| own.s).collect();
-        let mut modes = Vec::new();
+        let (mut modes, within) = (Vec::new(), self.whole.terms());
         for (own, Pencil { matrix, slope }) in found.into_iter().zip(self.whole.pencils(&places)) {
             let eigentol_shafts::Mode { s, mut right, mut left } = own;
             let weighs =
@@ -88,7 +88,7 @@ impl Shafts {
             let size = |row: &[Complex]| row.iter().zip(&right).map(|(a, x)| a.norm() * x.norm()).sum::<f64>();
             let terms: f64 = left.iter().zip(matrix.iter()).map(|(l, row)| l.norm() * size(row)).sum();
             let slope: Complex = left.iter().zip(slope.iter()).map(|(l, row)| l * dot_complex(row, &right)).sum();
-            let error = ROUNDING * (terms / slope.norm() + s.norm());
+            let error = ROUNDING * (terms / slope.norm() + s.norm() + 0.5 * within / s.norm());
             let rest = |row: &[Complex]| dot_complex(row, &right).norm() / size(row).max(f64::MIN_POSITIVE);
             let rest = matrix.iter().map(rest).fold(0.0, f64::max);
             let behaviour = Behaviour::of_general(s, error, false);

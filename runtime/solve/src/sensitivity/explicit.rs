@@ -9,7 +9,7 @@ use super::{Method, Sensitivities, Slopes, assemble, check_state};
 use crate::algebra::{dot_complex, form};
 use crate::kernels::{Kernels, Linear, PartialMatrices};
 use crate::modes::{Family, pencil_times};
-use crate::shafts::refuse;
+use crate::shafts::{ShaftsAlong, refuse};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode from explicit partials and the shift (eqs. 19-21 completed).
@@ -25,7 +25,7 @@ pub fn sensitivities_explicit(
     let shift = equilibrium_shift(mechanism, at)?;
     let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::Explicit, |sensitivity, mode| {
-        let rate = Rate::of(at, modes.family, mode);
+        let rate = Rate::of(at, modes.family, mode, None);
         let mut slopes = rate.slopes(partials.matrices(partials.by_input()), partials.matrices(partials.by_design()));
         let by_coordinate = partials.matrices(partials.by_coordinate());
         for (i, change) in by_coordinate.enumerate() {
@@ -57,7 +57,7 @@ pub fn sensitivities_with_frozen_equilibrium(
     refuse(&mechanism.description(), "derivatives of the matrices")?;
     let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::FrozenEquilibrium, |sensitivity, mode| {
-        let rate = Rate::of(at, modes.family, mode);
+        let rate = Rate::of(at, modes.family, mode, None);
         let slopes = rate.slopes(partials.matrices(partials.by_input()), partials.matrices(partials.by_design()));
         sensitivity.set(mode, modes.family, &slopes);
     })
@@ -79,8 +79,15 @@ pub struct Rate<'a> {
 
 impl<'a> Rate<'a> {
     #[doc(hidden)]
-    pub fn of(at: &Equilibrium, family: Family, mode: &'a Mode) -> Self {
-        Self { family, mode, scale: normaliser(at, None, mode) }
+    pub fn of(at: &Equilibrium, family: Family, mode: &'a Mode, shafts: Option<&ShaftsAlong<'_>>) -> Self {
+        let of_shafts = shafts.map_or(Complex::ZERO, |own| own.form(&own.slope, mode.left(), &mode.shape));
+        Self { family, mode, scale: normaliser(at, None, mode) + of_shafts }
+    }
+
+    /// Derivative of the eigenvalue by a variable, as far as it is in the numbers of shafts.
+    #[doc(hidden)]
+    pub fn of_shafts(&self, shafts: &ShaftsAlong<'_>, variable: usize) -> Complex {
+        -shafts.form(&shafts.by[variable][0], self.mode.left(), &self.mode.shape) / self.scale
     }
 
     /// Derivatives from the changes of the matrices with each variable.

@@ -45,7 +45,7 @@ pub fn sensitivities_by_finite_difference(
         by_design.push(difference(&above, &below, up[j] - down[j]));
     }
     assemble(at, modes, Method::FiniteDifference, |sensitivity, mode| {
-        let slopes = Rate::of(at, modes.family, mode).slopes(by_input.iter(), by_design.iter());
+        let slopes = Rate::of(at, modes.family, mode, None).slopes(by_input.iter(), by_design.iter());
         sensitivity.set(mode, modes.family, &slopes);
     })
 }

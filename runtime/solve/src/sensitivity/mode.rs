@@ -42,6 +42,12 @@ impl<T: Copy + Default> Slopes<T> {
         self.by_input.iter().chain(&self.by_design).copied()
     }
 
+    /// Those by inputs, then those by design variables, to change them.
+    #[doc(hidden)]
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.by_input.iter_mut().chain(&mut self.by_design)
+    }
+
     /// Empty slopes, to be overwritten.
     #[inline]
     fn blank() -> Self {

@@ -252,3 +252,80 @@ fn compare(row: &str, section: &str, bar: f64) {
         assert!((a - b).abs() < 1e-7 * b.abs().max(1e-12), "{a} {b}");
     }
 }
+
+/// Second derivatives of modes and vibrations, and derivatives of shapes: differences of those that were compared above.
+#[test]
+fn second_derivatives_are_those_of_differences() {
+    let study = study(2, 1);
+    let modes = study.modes().expect("modes");
+    let variables: Vec<f64> = study.description().design.iter().map(|variable| variable.nominal).collect();
+    for mode in 0..4 {
+        let curvature = study.mode_curvature(mode).expect("second derivatives");
+        let second = curvature.eigenvalue.as_ref().expect("second derivatives");
+        let s = modes.modes[mode].s;
+        assert!(curvature.asymmetry < 1e-7, "{}", curvature.asymmetry);
+        for (k, nominal) in variables.iter().enumerate() {
+            let step = 2e-3 * nominal;
+            let around = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
+                let moved = study.clone().design(DesignVariable::new(k), nominal + steps * step);
+                let modes = moved.modes().expect("modes").modes;
+                let apart = |k: &usize| (modes[*k].s - s).norm();
+                let own = (0..modes.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes");
+                moved.sensitivities().expect("derivatives").modes[own].s().expect("derivatives")
+            });
+            for (l, other) in variables.iter().enumerate() {
+                let [a, b, c, d] = around.each_ref().map(|slopes| slopes.by_design[l]);
+                let expected = (a - d + 8.0 * (c - b)) / (12.0 * step);
+                let found = second.by_design[k][l];
+                let error = (found - expected).norm() * (nominal * other).abs();
+                assert!(error < 2e-7 * s.norm(), "{mode} {k} {l}: {found} {expected}");
+            }
+        }
+    }
+}
+
+/// The modes of a slow round rotor are pairs, forward and backward, nearly equal: none is lost, and each moves away from the
+/// value at rest in proportion to the speed.
+#[test]
+fn slow_rotors_have_their_modes_in_pairs() {
+    let text = "mechanism Slow { input omega: rad/s;
+        material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+        body rotor: shaft(along: x, up: z, material: steel, lag: 5 us, drag: 4 N*s/m^2,
+            sections: [[200 mm, 30 mm], [150 mm, 45 mm], [250 mm, 35 mm, 10 mm]]) spinning at omega;
+        body disk: disk(mass: 9 kg, radius: 120 mm, axis: x);
+        joint turns: revolute(x) from rotor at station 2 to disk, driven at omega;
+        point left: rotor at root; point right: rotor at tip; point a: ground at [0, 0, 0]; point b: ground at [0.6, 0, 0] m;
+        force film_a: bushing(from: a, to: left, stiffness: [0, 20, 20] MN/m, damping: [0, 1, 1] kN*s/m);
+        force film_b: bushing(from: b, to: right, stiffness: [0, 30, 30] MN/m, damping: [0, 2, 2] kN*s/m); }";
+    let study = Study::new(machine(text));
+    let at = |omega: f64| -> Vec<Complex> {
+        let modes = study.clone().input(Input::new(0), omega).modes().expect("modes").modes;
+        assert_eq!(modes.len(), 12, "{omega}");
+        modes.iter().map(|mode| mode.s).collect()
+    };
+    let rest = at(0.0);
+    for pair in rest.chunks_exact(2) {
+        assert!((pair[0] - pair[1]).norm() < 1e-9 * pair[0].norm(), "{pair:?}");
+    }
+    let apart = |omega: f64| -> Vec<Complex> {
+        let modes = at(omega);
+        let pairs = modes.chunks_exact(2).zip(rest.chunks_exact(2));
+        let each = pairs.map(|(pair, rest)| {
+            let mean = 0.5 * (pair[0] + pair[1]);
+            assert!(
+                (mean - rest[0]).norm() < 1e-9 * rest[0].norm() + 1e-4 * omega * omega,
+                "{omega} {mean} {}",
+                rest[0]
+            );
+            let half = 0.5 * (pair[0] - pair[1]);
+            half * half / (omega * omega)
+        });
+        each.collect()
+    };
+    let expected = apart(10.0);
+    for omega in [1e-2, 0.1, 0.5, 1.0, 3.0] {
+        for (k, (found, expected)) in apart(omega).iter().zip(&expected).enumerate() {
+            assert!((found - expected).norm() < 1e-3 * expected.norm(), "{omega} pair {k}: {found} {expected}");
+        }
+    }
+}
