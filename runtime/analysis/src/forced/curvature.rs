@@ -12,7 +12,7 @@ use crate::kernels::{Curvature, CurvatureKernels, Gradient, Linear, gradient_res
 use crate::modes::{pencil_slope_times, pencil_times, transposed};
 use crate::second_order::{Adjoint, SecondDerivatives, joined, symmetric};
 use crate::sensitivity::{ComplexGradient, Direction, Slopes, directions, form_gradients_along, subtract};
-use crate::shafts::refuse;
+use crate::shafts::ShaftsAlong;
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A forced response with its total first and second derivatives.
@@ -90,22 +90,23 @@ impl ForcedCurvature {
 /// # Errors
 /// Those of [`sensitivities`](super::sensitivities).
 pub fn second_derivatives(mechanism: &dyn CurvatureKernels, at: &Equilibrium) -> Result<ForcedCurvature, Error> {
-    refuse(&at.description, "second derivatives of vibrations")?;
     let solved = Solved::new(mechanism, at)?;
     let slopes = first_derivatives(&solved)?;
     let adjoint = Adjoint::new(mechanism, at)?;
     let all: Vec<Along<'_>> =
-        directions(mechanism, at)?.map(|direction| Along::new(mechanism, at, direction)).collect();
+        directions(mechanism, at)?.enumerate().map(|own| Along::new(mechanism, at, own)).collect();
     let mut most = 0.0_f64;
     let mut harmonics = Vec::new();
     for (vibration, first) in solved.vibrations.iter().zip(&slopes) {
-        let moved = all.iter().zip(first.frequency.iter()).map(|(along, dw)| along.of(vibration, dw));
+        let shafts = ShaftsAlong::of(mechanism, at, vibration.harmonic.s())?;
+        let shafts = shafts.as_ref();
+        let moved = all.iter().zip(first.frequency.iter()).map(|(along, dw)| along.of((vibration, shafts), dw));
         let moved: Vec<Moved<'_>> = moved.collect();
         let (_, frequency) = frequency_rows(mechanism, at, &adjoint, vibration, &all);
         let adjoints = OutputAdjoint::each(&solved, vibration, 0..mechanism.sizes().outputs);
         let of_output = |(slopes, output_adjoint): (&Option<Slopes<Complex>>, Option<OutputAdjoint<'_>>)| {
             slopes.as_ref()?;
-            let (curved, _) = Curved::new(output_adjoint?, &adjoint);
+            let (curved, _) = Curved::new((output_adjoint?, shafts), &adjoint);
             let rows = moved.iter().map(|moved| curved.along(mechanism, moved));
             let rows: Option<Vec<Slopes<Complex>>> = rows.collect();
             let (second, asymmetry) = symmetric(&rows?, at.inputs.len(), Complex::norm);
@@ -131,6 +132,8 @@ pub fn second_derivatives(mechanism: &dyn CurvatureKernels, at: &Equilibrium) ->
 /// A direction of one variable, and how everything that a vibration depends on changes along it.
 pub(super) struct Along<'a> {
     at: &'a Equilibrium,
+    /// Among inputs and then design variables.
+    variable: usize,
     direction: Direction,
     linear: Linear,
     transposed: Linear,
@@ -139,10 +142,15 @@ pub(super) struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    pub(super) fn new(mechanism: &dyn CurvatureKernels, at: &'a Equilibrium, direction: Direction) -> Self {
+    pub(super) fn new(
+        mechanism: &dyn CurvatureKernels,
+        at: &'a Equilibrium,
+        (variable, direction): (usize, Direction),
+    ) -> Self {
         let linear = direction.linear(mechanism, at);
         Self {
             at,
+            variable,
             transposed: transposed(&linear),
             linear,
             forces: Forces::along(mechanism, at, &direction),
@@ -151,13 +159,21 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// The change of a vibration, whose frequency changes by `dw`.
-    pub(super) fn of<'b>(&'b self, vibration: &'b Vibration, dw: f64) -> Moved<'b> {
+    /// The change of a vibration, whose frequency changes by `dw`, with what shafts add.
+    pub(super) fn of<'b>(
+        &'b self,
+        (vibration, shafts): (&'b Vibration, Option<&'b ShaftsAlong<'b>>),
+        dw: f64,
+    ) -> Moved<'b> {
         let harmonic = &vibration.harmonic;
         let (s, z) = (harmonic.s(), &harmonic.unknowns);
         let ds = Complex::new(0.0, dw);
         let slope = pencil_slope_times(&self.at.linear, s, z);
-        let change = pencil_times(&self.linear, s, z);
+        let mut change = pencil_times(&self.linear, s, z);
+        if let Some(own) = shafts {
+            own.add_times(self.variable, z, false, &mut change);
+            own.add_slope_times(ds, z, false, &mut change);
+        }
         let mut right = Vector::from_fn(z.len(), |i| -change[i] - ds * slope[i]);
         for share in &harmonic.shares {
             let force = self.forces.force(share.excitation, share.turn());
@@ -168,6 +184,7 @@ impl<'a> Along<'a> {
         Moved {
             along: self,
             vibration,
+            shafts,
             ds,
             dz: finite.then(|| stiffness.solve(&Matrix::from_rows(1, right.into())).column(0)),
         }
@@ -178,6 +195,7 @@ impl<'a> Along<'a> {
 pub(super) struct Moved<'a> {
     along: &'a Along<'a>,
     vibration: &'a Vibration,
+    shafts: Option<&'a ShaftsAlong<'a>>,
     ds: Complex,
     /// `None` if it is infinite.
     dz: Option<Vector<Complex>>,
@@ -204,15 +222,22 @@ pub(super) struct Curved<'a> {
     adjoint: &'a Adjoint<'a>,
     /// `Khat^T w = -dh/dq`, real and imaginary part.
     w: [Vector; 2],
+    /// Second derivatives of `-h` by the numbers of shafts.
+    of_shafts: Option<Matrix<Complex>>,
 }
 
 impl<'a> Curved<'a> {
     /// With the total gradient of `-h`.
-    pub(super) fn new(output_adjoint: OutputAdjoint<'a>, adjoint: &'a Adjoint<'a>) -> (Self, ComplexGradient) {
+    pub(super) fn new(
+        (output_adjoint, shafts): (OutputAdjoint<'a>, Option<&ShaftsAlong<'_>>),
+        adjoint: &'a Adjoint<'a>,
+    ) -> (Self, ComplexGradient) {
         let mut room = Gradient::zeros(output_adjoint.solved.mechanism.sizes());
         let mut total = output_adjoint.gradient();
         let w = (total.each_mut()).map(|part| adjoint.total(part, &mut room));
-        (Self { output_adjoint, adjoint, w }, total)
+        let unknowns = &output_adjoint.vibration.harmonic.unknowns;
+        let of_shafts = shafts.map(|own| own.second(&output_adjoint.factors.left, unknowns));
+        (Self { output_adjoint, adjoint, w, of_shafts }, total)
     }
 
     /// The derivatives of the total gradient along a direction; `None` if they are infinite.
@@ -242,12 +267,19 @@ impl<'a> Curved<'a> {
         for (part, w) in total.iter_mut().zip(&self.w) {
             (self.adjoint).total_along(part, w, &along.direction, room);
         }
-        Some(joined(&total).map(|value| -value))
+        let mut total = joined(&total);
+        if let (Some(second), Some(own), Some(dz)) = (&self.of_shafts, moved.shafts, &moved.dz) {
+            let (z, p, dp) = (&vibration.harmonic.unknowns, &fixed.left, &change.left);
+            for ((total, second), [by, mixed]) in total.iter_mut().zip(&second[along.variable]).zip(&own.by) {
+                *total += second + own.form(by, dp, z) + own.form(by, p, dz) + moved.ds * own.form(mixed, p, z);
+            }
+        }
+        Some(total.map(|value| -value))
     }
 
     /// How the factors of `h` change.
     fn change(&self, moved: &Moved<'_>) -> Option<(Factors, Motion)> {
-        let Moved { along, ds, dz, .. } = moved;
+        let Moved { along, ds, dz, shafts, .. } = moved;
         let (dz, ds) = (dz.as_ref()?, *ds);
         let (vibration, seen, o) =
             (self.output_adjoint.vibration, &self.output_adjoint.solved.seen, self.output_adjoint.output);
@@ -255,8 +287,14 @@ impl<'a> Curved<'a> {
         let (p, linear) = (&self.output_adjoint.factors.left, &self.output_adjoint.solved.at.linear);
         let n = z.len();
         let (dc, slope) = (along.seen.row(o, s), seen.row_slope(o, s));
-        let of_matrices = pencil_times(&along.transposed, s, p);
-        let of_frequency = pencil_slope_times(&transposed(linear), s, p);
+        let mut of_matrices = pencil_times(&along.transposed, s, p);
+        let mut of_frequency = pencil_slope_times(&transposed(linear), s, p);
+        let mut at_rate = pencil_slope_times(linear, s, z);
+        if let Some(own) = shafts {
+            own.add_times(along.variable, p, true, &mut of_matrices);
+            own.add_slope_times(Complex::ONE, p, true, &mut of_frequency);
+            own.add_slope_times(Complex::ONE, z, false, &mut at_rate);
+        }
         let right = Vector::from_fn(n, |i| dc[i] + ds * (slope[i] - of_frequency[i]) - of_matrices[i]);
         let stiffness = &vibration.stiffness;
         if stiffness.seen_by(&right) {
@@ -270,9 +308,11 @@ impl<'a> Curved<'a> {
         let moved = pencil_slope_times(&along.linear, s, z);
         let moved = Vector::from_fn(n, |i| moved[i] + 2.0 * ds * inertia[i]);
         let seen_change = dot_complex(&dslope, z) + dot_complex(&slope, dz);
-        let form_change = dot_complex(&of_frequency, dz)
-            + dot_complex(&dp, &pencil_slope_times(linear, s, z))
-            + dot_complex(p, &moved);
+        let of_shafts = shafts.map_or(Complex::ZERO, |own| {
+            own.form(&own.by[along.variable][1], p, z) + ds * own.form(&own.curvature, p, z)
+        });
+        let form_change =
+            dot_complex(&of_frequency, dz) + dot_complex(&dp, &at_rate) + dot_complex(p, &moved) + of_shafts;
         let motion = [
             Vector::from_fn(n, |i| s * (2.0 * ds * z[i] + s * dz[i])),
             Vector::from_fn(n, |i| ds * z[i] + s * dz[i]),

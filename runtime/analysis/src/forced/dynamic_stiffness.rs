@@ -123,7 +123,7 @@ impl Scaled {
         )
     }
 
-    fn of_matrix(mut matrix: Matrix<Complex>) -> Self {
+    pub(super) fn of_matrix(mut matrix: Matrix<Complex>) -> Self {
         let n = matrix.row_count();
         let sizes: Vec<i32> = matrix.as_flattened().iter().map(|value| twice_log2(value.norm())).collect();
         let (rows, columns) = scales(n, &sizes);

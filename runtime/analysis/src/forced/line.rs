@@ -15,6 +15,7 @@ use crate::kernels::{CurvatureKernels, Linear};
 use crate::modes::pencil_slope_times;
 use crate::second_order::{Adjoint, joined};
 use crate::sensitivity::{Slopes, directions};
+use crate::shafts::ShaftsAlong;
 use crate::{Complex, Description, Equilibrium, Error, Mode, Output};
 
 /// A vibration at one value of an input.
@@ -78,6 +79,8 @@ pub(crate) struct Lines<'a> {
     solved: Solved<'a>,
     along: Along<'a>,
     input: usize,
+    /// What shafts add to each harmonic.
+    shafts: Vec<Option<ShaftsAlong<'a>>>,
 }
 
 /// A vibration, what it is made of, and the harmonics and outputs in that.
@@ -123,7 +126,10 @@ impl<'a> Lines<'a> {
     pub(crate) fn new(mechanism: &'a dyn CurvatureKernels, at: &'a Equilibrium, input: usize) -> Result<Self, Error> {
         let direction = directions(mechanism, at)?.nth(input);
         let direction = direction.ok_or(Error::NoSensitivity { reason: NoDerivative::UnknownInput })?;
-        Ok(Self { solved: Solved::new(mechanism, at)?, along: Along::new(mechanism, at, direction), mechanism, input })
+        let solved = Solved::new(mechanism, at)?;
+        let of_shafts = |own: &Harmonics| ShaftsAlong::of(mechanism, at, own.harmonic.s());
+        let shafts = solved.vibrations.iter().map(of_shafts).collect::<Result<_, Error>>()?;
+        Ok(Self { solved, along: Along::new(mechanism, at, (input, direction)), mechanism, input, shafts })
     }
 
     /// The vibration that an output is asked of, and its adjoint.
@@ -167,13 +173,13 @@ impl<'a> Lines<'a> {
     }
 
     fn term(&self, (harmonic, output): (usize, Output), measure: Measure, modes: &[Mode]) -> Result<Term, Error> {
-        let (mechanism, at) = (self.mechanism, self.solved.at);
+        let (mechanism, at, shafts) = (self.mechanism, self.solved.at, self.shafts[harmonic].as_ref());
         let (vibration, output_adjoint) = self.of((harmonic, output))?;
         let (harmonic, output) = (&vibration.harmonic, output.index());
         let y = harmonic.outputs[output].ok_or(NOT_SMOOTH)?;
         let w = harmonic.frequency;
         let dw = frequency_along(mechanism, at, vibration, &self.along);
-        let dy = self.along.of(vibration, dw).output(&self.solved, output).ok_or(NOT_SMOOTH)?;
+        let dy = self.along.of((vibration, shafts), dw).output(&self.solved, output).ok_or(NOT_SMOOTH)?;
         let seen = &vibration.seen[output];
         let (forces, mut force) = (Forces::of(mechanism, at), Vector::zeros(at.coordinates.len()));
         for share in &harmonic.shares {
@@ -213,13 +219,14 @@ impl<'a> Lines<'a> {
         let (mechanism, at) = (self.mechanism, self.solved.at);
         let adjoint = Adjoint::new(mechanism, at)?;
         let (vibration, output_adjoint) = self.of(term)?;
+        let shafts = self.shafts[term.0].as_ref();
         let harmonic = &vibration.harmonic;
         let y = harmonic.outputs[term.1.index()].ok_or(NOT_SMOOTH)?;
         let along = slice::from_ref(&self.along);
         let (slopes, rows) = frequency_rows(mechanism, at, &adjoint, vibration, along);
         let w = Curving { slopes, along: rows.into_iter().next().ok_or(NOT_SMOOTH)? };
-        let (curved, total) = Curved::new(output_adjoint, &adjoint);
-        let moved = self.along.of(vibration, w.slopes.by_input[self.input]);
+        let (curved, total) = Curved::new((output_adjoint, shafts), &adjoint);
+        let moved = self.along.of((vibration, shafts), w.slopes.by_input[self.input]);
         let row = curved.along(mechanism, &moved).ok_or(NOT_SMOOTH)?;
         let slopes = joined(&total).map(|value| -value);
         if !(slopes.iter().chain(row.iter())).all(|value| value.is_finite()) {

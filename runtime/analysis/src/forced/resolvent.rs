@@ -22,7 +22,7 @@ use super::response::add;
 use crate::algebra::{Lu, Matrix, Vector, product_complex};
 use crate::kernels::{CurvatureKernels, Linear};
 use crate::sensitivity::{Direction, equilibrium_shift, outside_domain};
-use crate::shafts::refuse;
+use crate::shafts::ShaftsAlong;
 use crate::{Complex, Equilibrium, Error};
 
 /// Most vectors that border `D`.
@@ -76,7 +76,6 @@ impl<'a> Resolvent<'a> {
         excitation: usize,
         variables: Vec<usize>,
     ) -> Result<Self, Error> {
-        refuse(&at.description, "bands of amplitudes near a resonance")?;
         let infos = &at.description.excitations;
         let first = infos.get(excitation).map_or(excitation, |info| info.with);
         let shift = equilibrium_shift(mechanism, at)?.by_design;
@@ -86,7 +85,11 @@ impl<'a> Resolvent<'a> {
         if s == Complex::ZERO {
             return Err(Error::NoFrequency { excitation: infos[first].name.clone() });
         }
-        let scaled = Scaled::new(&at.linear, s);
+        let shafts = ShaftsAlong::of(mechanism, at, s)?;
+        let scaled = match &shafts {
+            None => Scaled::new(&at.linear, s),
+            Some(own) => Scaled::of_matrix(own.whole(&at.linear)),
+        };
         let bordered = Bordered::new(&scaled.matrix).ok_or_else(|| outside_domain(at))?;
         let seen = Seen::of(mechanism, at);
         let outputs = mechanism.sizes().outputs;
@@ -104,7 +107,11 @@ impl<'a> Resolvent<'a> {
             };
             let rate = turn * Forces::along(mechanism, at, &along).frequency(first);
             let ds = Complex::new(0.0, rate);
-            let change = scaled.change(&at.linear, &along.linear(mechanism, at), s, ds);
+            let number = at.inputs.len() + variable;
+            let of_shafts = |i: usize, j: usize| {
+                shafts.as_ref().map_or(Complex::ZERO, |own| own.by[number][0][i][j] + own.slope[i][j] * ds)
+            };
+            let change = scaled.change((&at.linear, &along.linear(mechanism, at)), of_shafts, s, ds);
             let (changed_right, changed_left) = (product_complex(&change, r), product_complex(l, &change));
             let moved = Seen::along(mechanism, at, &along);
             let dc = rows(&|o| {
@@ -161,12 +168,18 @@ impl<'a> Resolvent<'a> {
 
 impl Scaled {
     /// The change of `D` with the matrices and with `s`.
-    fn change(&self, linear: &Linear, by: &Linear, s: Complex, ds: Complex) -> Matrix<Complex> {
+    fn change(
+        &self,
+        (linear, by): (&Linear, &Linear),
+        of_shafts: impl Fn(usize, usize) -> Complex,
+        s: Complex,
+        ds: Complex,
+    ) -> Matrix<Complex> {
         let n = self.rows.len();
         Matrix::from_fn(n, n, |i, j| {
             let (m, c) = (linear.mass[i][j], linear.damping[i][j]);
             let matrices = s * (s * by.mass[i][j] + by.damping[i][j]) + by.stiffness[i][j];
-            (matrices + (2.0 * s * m + c) * ds) * (self.rows[i] * self.columns[j])
+            (matrices + (2.0 * s * m + c) * ds + of_shafts(i, j)) * (self.rows[i] * self.columns[j])
         })
     }
 

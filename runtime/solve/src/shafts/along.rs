@@ -4,7 +4,7 @@ use eigentol_shafts::{Changes, Varied};
 
 use super::{Shafts, numbers_along};
 use crate::algebra::{Matrix, Vector, dot_complex};
-use crate::kernels::{Kernels, Second};
+use crate::kernels::{Kernels, Linear, Second};
 use crate::scalar::Dual;
 use crate::{Complex, Equilibrium, Error};
 
@@ -43,6 +43,16 @@ impl<'a> ShaftsAlong<'a> {
         let Some([value, slope, _, curvature]) = found.next() else { return Ok(None) };
         let by = found.map(|[_, by, _, mixed]: Changes| [by, mixed]).collect();
         Ok(Some(Self { mechanism, at, shafts, s, value, slope, curvature, by }))
+    }
+
+    /// `T(s)`, with these compiled matrices.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn whole(&self, linear: &Linear) -> Matrix<Complex> {
+        let s = self.s;
+        let n = self.value.row_count();
+        let compiled = |i: usize, j: usize| s * (s * linear.mass[i][j] + linear.damping[i][j]) + linear.stiffness[i][j];
+        Matrix::from_fn(n, n, |i, j| compiled(i, j) + self.value[i][j])
     }
 
     /// An entry of what is added to `T(s)`, or to its transpose.

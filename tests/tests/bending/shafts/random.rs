@@ -282,6 +282,28 @@ fn second_derivatives_are_those_of_differences() {
             }
         }
     }
+    let forced = study.forced_curvature().expect("second derivatives");
+    assert!(forced.asymmetry < 1e-7, "{}", forced.asymmetry);
+    let response = study.forced_response().expect("a response");
+    for (k, nominal) in variables.iter().enumerate() {
+        let step = 2e-3 * nominal;
+        let around = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
+            let moved = study.clone().design(DesignVariable::new(k), nominal + steps * step);
+            moved.forced_sensitivities().expect("derivatives").harmonics.swap_remove(0)
+        });
+        for output in 0..2 {
+            let size = response.harmonics[0].outputs[output].expect("an amplitude").norm();
+            let second = forced.harmonics[0].outputs[output].as_ref().expect("second derivatives");
+            for (l, other) in variables.iter().enumerate() {
+                let of = |own: &eigentol::sensitivity::Slopes<Complex>| own.by_design[l];
+                let [a, b, c, d] = around.each_ref().map(|own| of(own.outputs[output].as_ref().expect("derivatives")));
+                let expected = (a - d + 8.0 * (c - b)) / (12.0 * step);
+                let found = second.by_design[k][l];
+                let error = (found - expected).norm() * (nominal * other).abs();
+                assert!(error < 1e-6 * size, "output {output} {k} {l}: {found} {expected}");
+            }
+        }
+    }
 }
 
 /// The modes of a slow round rotor are pairs, forward and backward, nearly equal: none is lost, and each moves away from the

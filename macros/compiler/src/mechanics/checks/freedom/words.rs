@@ -1,6 +1,7 @@
 //! Free directions in words.
 
 use crate::algebra::{Disturbed, NullSpace};
+use crate::base::names::written;
 use crate::base::span::Extent;
 use crate::mechanics::setup::Context;
 
@@ -56,7 +57,8 @@ pub(super) fn note(system: &System, count: &Count, state: &Linearised) -> String
         1 if !list[0].contains(':') => ("it stands", "its"),
         _ => ("they stand", "their"),
     };
-    format!("free: {}; nothing depends on where {they}, so {their} place is that of the start", list.join(", "))
+    let list = written(&list.join(", ")).into_owned();
+    format!("free: {list}; nothing depends on where {they}, so {their} place is that of the start")
 }
 
 /// Combinations with short descriptions: those of coordinates alone, those of motions of space alone, then all. Some may
