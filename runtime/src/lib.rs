@@ -92,8 +92,8 @@ mod study;
 #[cfg(feature = "analysis")]
 #[doc(inline)]
 pub use eigentol_analysis::{
-    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, forced, mistuning, motion,
-    peaks, picture, response, second_order, shapes, sweep,
+    branches, campbell, campbell::Campbell, clusters, convergence, convergence::Convergence, event_map,
+    event_map::EventMap, forced, mistuning, motion, peaks, picture, response, second_order, shapes, sweep,
 };
 #[cfg(feature = "std")]
 #[doc(inline)]

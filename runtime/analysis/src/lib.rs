@@ -8,6 +8,7 @@ pub mod branches;
 pub mod campbell;
 pub mod clusters;
 pub mod convergence;
+pub mod event_map;
 pub mod forced;
 pub mod mistuning;
 pub mod motion;
@@ -23,8 +24,8 @@ mod variables;
 
 use eigentol_contract::scalar;
 use eigentol_contract::{
-    Any, DampingKind, Description, Excitation, Input, Output, PictureInfo, Role, Shared, SolidInfo, SolidKind, Text,
-    Unit,
+    Any, DampingKind, Description, DesignVariable, Excitation, Input, Output, PictureInfo, Role, Shared, SolidInfo,
+    SolidKind, Text, Unit,
 };
 use eigentol_numerics::algebra::Vector;
 use eigentol_numerics::{Complex, algebra, eigenproblem};
@@ -34,3 +35,4 @@ use eigentol_solve::{arguments, constraints, equilibrium, error, free, kernels, 
 use eigentol_tolerance::{batched, tolerance};
 
 pub use campbell::Campbell;
+pub use event_map::EventMap;

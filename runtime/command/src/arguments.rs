@@ -9,8 +9,8 @@ use eigentol::Error;
 
 use crate::color::Color;
 use crate::commands::{
-    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, merge, mistuning,
-    modes, new, probability, report, response, sample, schema, sensitivities, serve, sweep, tolerance,
+    allocate, branches, campbell, check, completions, converge, equilibria, expand, grade, import, map, merge,
+    mistuning, modes, new, probability, report, response, sample, schema, sensitivities, serve, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -87,6 +87,7 @@ enum Command {
     Grade(grade::Grade),
     Mistuning(mistuning::Mistuning),
     Campbell(campbell::Campbell),
+    Map(map::Map),
     Sweep(sweep::Follow),
     Branches(branches::Branches),
     Sample(sample::Sample),
@@ -146,6 +147,7 @@ impl Command {
             Self::Grade(grade) => grade.run(),
             Self::Mistuning(mistuning) => mistuning.run(),
             Self::Campbell(campbell) => campbell.run(),
+            Self::Map(map) => map.run(),
             Self::Sweep(sweep) => sweep.run(),
             Self::Branches(branches) => branches.run(),
             Self::Sample(sample) => sample.run(),

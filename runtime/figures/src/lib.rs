@@ -14,6 +14,6 @@ pub use error::Error;
 pub use figure::Figure;
 pub use results::{
     Along, Histogram, Spreads, bode, branches, campbell, damping_ratios, deflections, eigenvalues, equilibria,
-    figure_of, frequencies, mode_shapes, orbit, participation, polar, root_locus, shares, shares_of_all,
+    event_map, figure_of, frequencies, mode_shapes, orbit, participation, polar, root_locus, shares, shares_of_all,
 };
 pub use style::Style;

@@ -23,6 +23,6 @@ pub use mistakes::{Mistake, Mistakes, ReadError, RefineError, UnitError};
 pub use names::meant;
 pub use settings::{Setting, coordinate, design, parameter, read, with_setting};
 pub use wanted::{
-    FORMS, WantedError, excitation, multiple, orders, output, range, requirement, requirements, response, vibration,
-    with_unit_of,
+    FORMS, WantedError, design_range, excitation, multiple, orders, output, range, requirement, requirements, response,
+    vibration, with_unit_of,
 };

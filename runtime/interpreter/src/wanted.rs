@@ -7,7 +7,7 @@ use eigentol::peaks::PeakQuantity;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Responses, Vibration};
 use eigentol::sweep::{Condition, Line, Range};
-use eigentol::{Error, Excitation, Input, Output, Quantity, Study, Unit};
+use eigentol::{DesignVariable, Error, Excitation, Input, Output, Quantity, Study, Unit};
 use eigentol_compiler::base::units;
 use thiserror::Error as ThisError;
 
@@ -391,22 +391,43 @@ pub fn excitation(study: &Study<Interpreted>, under: Option<&str>) -> Result<Exc
 /// # Errors
 /// [`WantedError`].
 pub fn range(study: &Study<Interpreted>, text: &str) -> Result<Range> {
+    let (name, ends) = name_and_ends(text, "an input", "speed=0..6000rpm")?;
+    let input = study.find_input(name)?;
+    let [low, high] = in_si(text, name, ends, &study.description().inputs[input.index()].unit)?;
+    Ok(Range::new(input.any(), low, high))
+}
+
+/// Reads a range of a design variable: `bearing=1..100MN/m`, SI.
+///
+/// # Errors
+/// As [`range`].
+pub fn design_range(study: &Study<Interpreted>, text: &str) -> Result<(DesignVariable<Interpreted>, [f64; 2])> {
+    let (name, ends) = name_and_ends(text, "a design variable", "bearing=1..100MN/m")?;
+    let design = study.find_design(name)?;
+    let ends = in_si(text, name, ends, &study.description().design[design.index()].unit)?;
+    Ok((design, ends))
+}
+
+fn name_and_ends<'a>(text: &'a str, what: &str, example: &str) -> Result<(&'a str, [&'a str; 2])> {
     let parts = text.split_once('=').and_then(|(name, range)| Some((name.trim(), range.split_once("..")?)));
     let Some((name, (low, high))) = parts else {
-        return wrong(format!("`{text}` is not a range"), "write a range of an input as `speed=0..6000rpm`");
+        return wrong(format!("`{text}` is not a range"), format!("write a range of {what} as `{example}`"));
     };
-    let input = study.find_input(name)?;
-    for (end, what, instead) in [(low, "start", format!("0..{high}")), (high, "end", format!("{low}..6000rpm"))] {
-        if end.trim().is_empty() {
+    let end = example.rsplit("..").next().unwrap_or_default();
+    for (given, what, instead) in [(low, "start", format!("0..{high}")), (high, "end", format!("{low}..{end}"))] {
+        if given.trim().is_empty() {
             return wrong(format!("the range `{text}` has no {what}"), format!("write `{name}={instead}`"));
         }
     }
-    let unit = &study.description().inputs[input.index()].unit;
+    Ok((name, [low, high]))
+}
+
+fn in_si(text: &str, name: &str, [low, high]: [&str; 2], unit: &Unit) -> Result<[f64; 2]> {
     let end = |end: &str| {
         let place = || format!("sweep {text}");
         value(end, unit, &format!("`{name}`")).map_err(|mistakes| WantedError::Value { place: place(), mistakes })
     };
-    Ok(Range::new(input.any(), end(&with_unit_of(low, high))?, end(high)?))
+    Ok([end(&with_unit_of(low, high))?, end(high)?])
 }
 
 /// Requires an order to be a multiple of the input with which a mode can oscillate somewhere in a range.

@@ -9,12 +9,13 @@ use super::{Study, Value};
 use crate::branches::{self, Branch, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell, CampbellPoint};
 use crate::equilibrium::{Policy, Search};
+use crate::event_map::EventMap;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::Sensitivities;
 use crate::sweep::{self, Following, Line, Range, Sweep, SweepPoint};
 use crate::tolerance;
 use crate::tolerance::{FirstOrder, Tolerances};
-use crate::{Error, Input, Watch};
+use crate::{DesignVariable, Error, Input, Watch};
 
 impl<M: BatchKernels> Study<M> {
     /// Computes equilibria and modes at each value of one input, and the critical values between them
@@ -119,6 +120,38 @@ impl<M: DirectionalKernels> Study<M> {
         })?;
         whole.points = points;
         Ok(whole)
+    }
+
+    /// The events between the ends of a range of an input, with their spreads, at each of these values of a design variable:
+    /// a critical speed map over the stiffness of a bearing, the limit of stability over what cross-couples.
+    #[doc = include_str!("example.txt")]
+    /// let map = study.event_map(Pendulum::omega, 1.0, 6.0, &[1.0], Pendulum::l, &[0.5, 1.0, 2.0])?;
+    /// // The bar swings outwards where omega^2 = 3 g / (2 l).
+    /// let critical = map.points.iter().map(|(l, events)| (l, events.as_ref().unwrap().last().unwrap().value));
+    /// assert!(critical.into_iter().all(|(l, omega)| (omega * omega * l - 14.715).abs() < 1e-6));
+    #[doc = include_str!("end.txt")]
+    /// # Errors
+    /// As [`Study::campbell`] for the settings; what fails at one value is part of the result.
+    pub fn event_map(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+        orders: &[impl Into<Line> + Copy],
+        over: DesignVariable<M>,
+        values: &[f64],
+    ) -> Result<EventMap, Error>
+    where
+        M: Clone,
+    {
+        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        let at = |value: &f64| {
+            let study = self.clone().design(over, *value);
+            (*value, study.campbell(input, &[range.low, range.high], &lines))
+        };
+        let of = (self.input_values(), self.mechanism.description());
+        Ok(EventMap::of((input.any(), over.any()), of, values.iter().map(at)))
     }
 
     /// Like [`Study::campbell`], but passes each point to `each` as soon as it is found and keeps none; `each` can

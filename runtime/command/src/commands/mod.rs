@@ -12,6 +12,7 @@ pub(crate) mod grade;
 pub(crate) mod import;
 #[cfg(feature = "man")]
 pub(crate) mod man;
+pub(crate) mod map;
 pub(crate) mod merge;
 pub(crate) mod mistuning;
 pub(crate) mod modes;

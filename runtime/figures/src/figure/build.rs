@@ -174,20 +174,23 @@ impl Panel {
     #[must_use]
     pub(crate) fn straightened(&self) -> Self {
         let mut panel = self.clone();
-        if !panel.y.logarithmic {
+        let logarithmic = [panel.x.logarithmic, panel.y.logarithmic];
+        if logarithmic == [false; 2] {
             return panel;
         }
-        panel.y.range = panel.y.range.map(f64::log10);
+        let straight = |value: f64, axis: usize| if logarithmic[axis] { value.log10() } else { value };
+        panel.x.range = panel.x.range.map(|end| straight(end, 0));
+        panel.y.range = panel.y.range.map(|end| straight(end, 1));
         let pieces = panel.curves.iter_mut().flat_map(|curve| &mut curve.pieces).flatten();
         let markers = panel.markers.iter_mut().flat_map(|markers| &mut markers.points);
         let bars = panel.error_bars.iter_mut().flat_map(|errors| &mut errors.bars);
         let bars = bars.flat_map(|bar| [&mut bar.at, &mut bar.low, &mut bar.high]);
         let labels = panel.labels.iter_mut().map(|label| &mut label.at);
         for point in pieces.chain(markers).chain(bars).chain(labels) {
-            point[1] = point[1].log10();
+            *point = [straight(point[0], 0), straight(point[1], 1)];
         }
         for edge in panel.bands.iter_mut().flat_map(|band| &mut band.edges) {
-            *edge = [edge[0], edge[1].log10(), edge[2].log10()];
+            *edge = [straight(edge[0], 0), straight(edge[1], 1), straight(edge[2], 1)];
         }
         panel
     }

@@ -68,7 +68,16 @@ pub(crate) fn draw(
 }
 
 fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> String {
-    let what = match event.event {
+    let (what, value) = (words(event, style), with_unit(event.value, unit));
+    match event.sigma() {
+        Some(sigma) => format!("({index}) {what} at {value}, sigma {}", with_unit(sigma, unit)),
+        None => format!("({index}) {what} at {value}, without a derivative"),
+    }
+}
+
+/// What happens, and to which mode.
+pub(super) fn words(event: &EventTolerance, style: &Style) -> String {
+    match event.event {
         Event::Crossing { mode, condition: Condition::Line(line), whirl, .. } => {
             let name = style.whirling(mode, whirl.map(Whirl::character));
             let order = if line.ratio == 0.0 {
@@ -80,10 +89,5 @@ fn line(index: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> Str
         }
         Event::Crossing { mode, .. } => format!("{}: limit of stability", style.mode(mode)),
         _ => "stiffness is lost".to_owned(),
-    };
-    let value = with_unit(event.value, unit);
-    match event.sigma() {
-        Some(sigma) => format!("({index}) {what} at {value}, sigma {}", with_unit(sigma, unit)),
-        None => format!("({index}) {what} at {value}, without a derivative"),
     }
 }

@@ -55,7 +55,7 @@ displayed!(EventTolerance);
 
 impl EventTolerance {
     /// The event without the value: `frequency 1 crosses 2x speed (backward)`.
-    fn what_happens(&self) -> String {
+    pub(crate) fn what_happens(&self) -> String {
         let Some((mode, condition)) = self.meeting() else {
             return "critical".to_owned();
         };
