@@ -63,13 +63,13 @@ fn text(frame: &Frame, modes: usize) -> String {
 fn whole(frame: &Frame, wall: f64, weight: f64) -> [DMatrix<f64>; 2] {
     let (mut mass, mut stiffness) = (&frame.mass * weight, &frame.stiffness * wall);
     for station in 0..frame.stations().len() {
-        for k in 0..3 {
+        for (k, spring) in SPRING.iter().enumerate() {
             let row = 6 * station + k;
             if station < 2 {
                 mass[(row, row)] += LOAD;
                 mass[(row + 3, row + 3)] += TURNS;
             } else {
-                stiffness[(row, row)] += SPRING[k];
+                stiffness[(row, row)] += spring;
             }
         }
     }

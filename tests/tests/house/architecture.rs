@@ -30,7 +30,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     (
         "runtime/solve",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-shafts", "eigentol-statistics"],
-        370,
+        374,
     ),
     (
         "runtime/tolerance",
@@ -47,7 +47,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        472,
+        478,
     ),
     (
         "runtime/uncertainty",
@@ -76,16 +76,16 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 51),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 59),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 452),
+    ("macros/language", &["eigentol-symbolic"], 489),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 423),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
     ("macros/urdf", &["eigentol-compiler"], 86),
-    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 62),
+    ("runtime/interpreter", &["eigentol", "eigentol-compiler"], 63),
     ("runtime/tables", &["eigentol-contract", "eigentol-results"], 20),
-    ("runtime/figures", &["eigentol"], 114),
+    ("runtime/figures", &["eigentol"], 116),
     ("runtime/report", &["eigentol", "eigentol-figures", "eigentol-tables"], 65),
     (
         "runtime/live",
@@ -105,7 +105,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        131,
+        167,
     ),
     (
         "runtime/python",
