@@ -6,6 +6,12 @@ use std::path::{Path, PathBuf};
 use crate::program::{examples, folder};
 use crate::walkthrough::{Part, UPDATE, parts, walked};
 
+/// An example of which a chapter of the guide shows a part.
+const CHAPTER: &str = "rotors";
+const EXAMPLE: &str = "gas_turbine.mechanism";
+/// What the example reads.
+const BESIDE: [&str; 3] = ["gas_turbine_rotor.csv", "gas_turbine_casing_mass.mtx", "gas_turbine_casing_stiffness.mtx"];
+
 fn crate_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
 }
@@ -58,6 +64,11 @@ fn the_guide_shows_what_commands_print() {
         if chapter.extension().is_some_and(|extension| extension == "md") {
             let name = chapter.file_stem().unwrap().to_string_lossy().into_owned();
             let path = folder(&format!("guide_{name}"));
+            if name == CHAPTER {
+                for file in BESIDE.into_iter().chain([EXAMPLE]) {
+                    fs::copy(examples().join(file), path.join(file)).unwrap();
+                }
+            }
             let (count, changed) = check(&chapter, &path, &path);
             commands += count;
             all.extend(changed);
@@ -65,4 +76,20 @@ fn the_guide_shows_what_commands_print() {
     }
     unchanged(&all);
     assert!(commands >= 10, "{commands}");
+}
+
+#[test]
+fn the_guide_shows_lines_of_the_gas_turbine() {
+    let chapter = fs::read_to_string(crate_folder().join(format!("../guide/src/{CHAPTER}.md"))).unwrap();
+    let example = fs::read_to_string(examples().join(EXAMPLE)).unwrap();
+    let (_, section) = chapter.split_once("\n# A rotor in a flexible casing\n").unwrap();
+    let (_, block) = section.split_once("```text\n").unwrap();
+    let (block, _) = block.split_once("```\n").unwrap();
+    let declared: Vec<&str> = example.lines().collect();
+    // Places that are left out are empty lines.
+    let stretches: Vec<Vec<&str>> = block.trim_end().split("\n\n").map(|lines| lines.lines().collect()).collect();
+    assert!(stretches.len() > 2, "{stretches:?}");
+    for lines in stretches {
+        assert!(declared.windows(lines.len()).any(|own| own == lines), "{lines:#?}");
+    }
 }
