@@ -33,8 +33,12 @@ const STEPS: usize = 12;
 const CLOSE: f64 = 1e-9;
 /// A relative step behind which the next, unless it is much smaller, is rounding.
 const STAYS: f64 = 1e-7;
-/// What is slower than this part of a typical frequency is a rigid motion, whose rounding it is.
-const RIGID: f64 = 1e-4;
+/// The square of an eigenvalue that is rounding, as a part of the terms that cancel in it.
+const RIGID: f64 = 256.0 * f64::EPSILON;
+/// The relative error of an approximation below which it is one of that mode.
+const CONVERGED: f64 = 1e-2;
+/// The most Krylov spaces.
+const SPACES: usize = 6;
 /// Radians by which a determinant may turn in half a step along an edge.
 const TURN: f64 = 0.9;
 /// Distance of equal eigenvalues as a part of them.
@@ -61,8 +65,8 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
-        let rigid = RIGID * self.typical_frequency();
-        let (mut modes, lost) = self.of_krylov(count + 2, |s| s.im > rigid)?;
+        let rigid = self.rigid();
+        let (mut modes, lost) = self.of_krylov((count + 2, count), |s| s.im > rigid)?;
         modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
         modes.truncate(count);
         let complete = modes.len() == count && modes.iter().all(|mode| mode.s.im < lost);
@@ -75,12 +79,12 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn divergent(&self) -> Result<usize, Error> {
-        let rigid = RIGID * self.typical_frequency();
-        Ok(self.of_krylov(DIVERGENT, |s| s.im.abs() <= rigid && s.re > rigid)?.0.len())
+        let rigid = self.rigid();
+        Ok(self.of_krylov((DIVERGENT, DIVERGENT), |s| s.im.abs() <= rigid && s.re > rigid)?.0.len())
     }
 
     /// The wanted modes of a Krylov space, made exact, and the least frequency of an approximation that led to none.
-    fn of_krylov(&self, count: usize, wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Mode>, f64), Error> {
+    fn of_krylov(&self, count: (usize, usize), wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Mode>, f64), Error> {
         let found = self.krylov(count, &wanted)?;
         let near: Vec<Complex> = found.iter().map(|(s, _)| *s).collect();
         let starts = found.into_iter().zip(self.pencils(&near)).map(|((s, stations), pencil)| {
@@ -374,15 +378,53 @@ impl Assembly {
         self.refined(&[start]).pop().flatten().ok_or(Error::NotConverged)
     }
 
-    /// Wanted eigenvalues near a shift and the motions of the stations, the nearest first. The shift is real, and so are all
-    /// vectors: planar motions are real where that of `y - i z` is the conjugate of that of `y + i z`, which alone is kept.
+    /// Wanted eigenvalues near a shift and the motions of the stations, the nearest first. A shift far from all of them does not
+    /// tell them from each other: as long as one of the nearest, up to `sure` wanted ones, has not converged, the next shift is
+    /// what the slowest of them is, or the space has more directions.
     fn krylov(
         &self,
-        count: usize,
+        (count, sure): (usize, usize),
         wanted: &impl Fn(Complex) -> bool,
     ) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
-        let typical = self.typical_frequency();
-        let shift = Complex::new(SHIFT * typical, 0.0);
+        let (mut shift, mut steps) = (SHIFT * self.typical_frequency(), 2 * count + 14);
+        let mut found = Vec::new();
+        for _ in 0..SPACES {
+            let space = self.space(shift, steps)?;
+            let ritz = space.ritz(self.stations(), 2 * count, wanted)?;
+            let mut left = sure;
+            let is_known = ritz.iter().take(2 * count).all(|own| {
+                let needed = left > 0;
+                left -= usize::from(needed && own.stations.is_some());
+                !needed || own.rest < CONVERGED
+            });
+            let rigid = self.rigid();
+            let slowest =
+                ritz.iter().map(|own| own.s.norm()).filter(|size| *size > rigid).fold(f64::INFINITY, f64::min);
+            let is_whole = space.basis.len() < steps;
+            let pairs = ritz.into_iter().filter_map(|own| Some((own.s, own.stations?)));
+            found = pairs.take(count).collect();
+            if is_known || is_whole {
+                break;
+            }
+            if slowest < 0.5 * shift {
+                shift = slowest;
+            } else {
+                steps += steps / 2;
+            }
+        }
+        Ok(found)
+    }
+
+    /// What is slower is a rigid motion, as far as rounding lets one see.
+    fn rigid(&self) -> f64 {
+        (RIGID * self.terms()).sqrt()
+    }
+
+    /// A Krylov space about a shift. The shift is real, and so are all vectors: planar motions are real where that of `y - i z` is
+    /// the conjugate of that of `y + i z`, which alone is kept.
+    fn space(&self, shift: f64, steps: usize) -> Result<Space, Error> {
+        let typical = shift / SHIFT;
+        let shift = Complex::new(shift, 0.0);
         let at = self.at(shift).ok_or(Error::NotConverged)?;
         let mut seed = 1_u64;
         let mut first = self.still(Kept::First);
@@ -401,12 +443,12 @@ impl Assembly {
         };
         let mut start = flat(&first, &first);
         let half = start.len() / 2;
-        let most = (2 * count + 14).min(2 * half);
+        let most = steps.min(2 * half);
         normalise(&mut start);
         let mut basis = vec![start];
         let mut hessenberg = Matrix::<f64>::zeros(most, most);
         let (mut x, mut v) = (first.clone(), first);
-        let mut size = most;
+        let (mut size, mut rest) = (most, 0.0);
         for k in 0..most {
             x.set_reals(&basis[k][..half], 1.0);
             v.set_reals(&basis[k][half..], typical);
@@ -427,9 +469,9 @@ impl Assembly {
                     break;
                 }
             }
-            let rest = normalise(&mut next);
+            rest = normalise(&mut next);
             if rest <= 1e-13 * before {
-                size = k + 1;
+                (size, rest) = (k + 1, 0.0);
                 break;
             }
             if k + 1 < most {
@@ -437,21 +479,8 @@ impl Assembly {
                 basis.push(next);
             }
         }
-        let small = Matrix::from_fn(size, size, |i, j| Complex::new(hessenberg[i][j], 0.0));
-        let mut values = vec![Complex::ZERO; size];
-        if !eigenvalues(small.clone().as_flattened_mut(), &mut values) {
-            return Err(Error::NotConverged);
-        }
-        values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
-        let of_wanted = |value: &Complex| value.norm() > 0.0 && wanted(shift + value.inv());
-        let pairs = values.into_iter().filter(of_wanted).take(count).filter_map(|value| {
-            let near = value * (1.0 + 1e-12);
-            let shifted = Matrix::from_fn(size, size, |i, j| if i == j { small[i][j] - near } else { small[i][j] });
-            let y = Lu::of(shifted)?.solve(&vec![Complex::new(1.0, 0.0); size]);
-            let stations = Vector::from_fn(self.stations(), |i| (0..size).map(|j| y[j] * basis[j][i]).sum());
-            Some((shift + value.inv(), stations))
-        });
-        Ok(pairs.collect())
+        basis.truncate(size);
+        Ok(Space { shift, basis, hessenberg, rest })
     }
 
     /// That of the longest span between hinges, 1/s.
@@ -475,7 +504,8 @@ fn factored(pencil: &Pencil) -> Option<Lu<Complex>> {
 /// Both vectors by steps that do not move `s`, which cost little, from an approximation of the motion of the stations.
 fn turned(pencil: &Pencil, factors: &Lu<Complex>, s: Complex, stations: Vector<Complex>) -> Mode {
     let mut right = stations;
-    let mut left = factors.solve_transposed(&Vector::from_fn(right.len(), |k| Complex::new(1.0 - 0.1 * k as f64, 0.0)));
+    let mut left =
+        factors.solve_transposed(&Vector::from_fn(right.len(), |k| Complex::new(1.0 + 0.3 * (k % 5) as f64, 0.0)));
     for _ in 0..TURNS {
         right = factors.solve(&times(&pencil.slope, &right));
         left = factors.solve_transposed(&times_transposed(&pencil.slope, &left));
@@ -504,6 +534,49 @@ fn normalised(x: &mut [Complex]) -> f64 {
     factor
 }
 
+/// An orthonormal basis with what the shifted and inverted pencil is in it, and what it leaves of the last direction.
+struct Space {
+    shift: Complex,
+    basis: Vec<Vec<f64>>,
+    hessenberg: Matrix,
+    rest: f64,
+}
+
+/// An approximation from a Krylov space: with the motion of the stations if it is wanted, and its error as far as what is left of its equation says.
+struct Ritz {
+    s: Complex,
+    stations: Option<Vector<Complex>>,
+    rest: f64,
+}
+
+impl Space {
+    /// The approximations nearest to the shift, so many and then the wanted ones only.
+    fn ritz(&self, stations: usize, count: usize, wanted: &impl Fn(Complex) -> bool) -> Result<Vec<Ritz>, Error> {
+        let size = self.basis.len();
+        let small = Matrix::from_fn(size, size, |i, j| Complex::new(self.hessenberg[i][j], 0.0));
+        let mut values = vec![Complex::ZERO; size];
+        if !eigenvalues(small.clone().as_flattened_mut(), &mut values) {
+            return Err(Error::NotConverged);
+        }
+        values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+        let places = values.into_iter().filter(|value| value.norm() > 0.0).enumerate();
+        let of_value = |(place, value): (usize, Complex)| {
+            let s = self.shift + value.inv();
+            let is_wanted = wanted(s);
+            if !is_wanted && place >= count {
+                return None;
+            }
+            let y = inverse_iteration(&self.hessenberg, size, value * (1.0 + 1e-12));
+            let length = y.iter().map(Complex::norm_sqr).sum::<f64>().sqrt();
+            // As a change of `s`, relative to it.
+            let rest = self.rest * y[size - 1].norm() / (length * value.norm_sqr() * s.norm());
+            let motion = || Vector::from_fn(stations, |i| (0..size).map(|j| y[j] * self.basis[j][i]).sum());
+            Some(Ritz { s, stations: is_wanted.then(motion), rest })
+        };
+        Ok(places.filter_map(of_value).collect())
+    }
+}
+
 impl Mode {
     /// Whether two modes are one.
     #[must_use]
@@ -516,6 +589,32 @@ impl Mode {
     fn is_near(&self, other: &Self) -> bool {
         (self.s - other.s).norm() < SAME * self.s.norm()
     }
+}
+
+/// `(H - value)^-1` times a vector of ones, for the leading part of a Hessenberg matrix.
+fn inverse_iteration(hessenberg: &Matrix, size: usize, value: Complex) -> Vector<Complex> {
+    let entry = |i: usize, j: usize| Complex::from(hessenberg[i][j]) - if i == j { value } else { Complex::ZERO };
+    let mut rows: Vec<Vec<Complex>> = (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect();
+    let mut y = Vector::from_fn(size, |_| Complex::ONE);
+    for k in 0..size.saturating_sub(1) {
+        if rows[k + 1][k].norm_sqr() > rows[k][k].norm_sqr() {
+            rows.swap(k, k + 1);
+            y.swap(k, k + 1);
+        }
+        let (above, below) = rows.split_at_mut(k + 1);
+        let (row, next) = (&above[k], &mut below[0]);
+        let factor = next[k] / row[k];
+        next[k..].iter_mut().zip(&row[k..]).for_each(|(to, from)| *to -= factor * from);
+        let moved = factor * y[k];
+        y[k + 1] -= moved;
+    }
+    for k in (0..size).rev() {
+        let known: Complex = rows[k][k + 1..].iter().zip(&y[k + 1..]).map(|(a, y)| a * y).sum();
+        let least = f64::EPSILON * value.norm();
+        let pivot = if rows[k][k].norm() > least { rows[k][k] } else { least.into() };
+        y[k] = (y[k] - known) / pivot;
+    }
+    y
 }
 
 /// The scalar product, from eight sums side by side.

@@ -351,3 +351,43 @@ fn slow_rotors_have_their_modes_in_pairs() {
         }
     }
 }
+
+/// Slow masses beside a short, fast shaft: the modes are the slowest of all, and one that grows or gives way is seen.
+#[test]
+fn slow_motions_beside_a_fast_shaft_are_found() {
+    for length in [60.0, 400.0, 2000.0] {
+        let study = |law: &str| {
+            let text = format!(
+                "mechanism Few {{
+                    material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+                    body rotor: shaft(along: x, up: z, material: steel, sections: [[{length} mm, 60 mm]]);
+                    point a: rotor at root; point b: rotor at tip;
+                    point seat0: ground; point seat1: ground at [{length} mm, 0, 0];
+                    force left: bushing(from: seat0, to: a, stiffness: [0, 1, 1] MN/m, damping: [0, 10, 10] N*s/m);
+                    force right: bushing(from: seat1, to: b, stiffness: [0, 1, 1] MN/m, damping: [0, 10, 10] N*s/m);
+                    body mass[0..16]: point(mass: 1 kg);
+                    for i in 0..16 {{
+                        joint slide[i]: prismatic(x) from ground to mass[i];
+                        force soft[i]: spring(on: slide[i], stiffness: (i + 1)^2 * 30 N/m);
+                        force slow[i]: damper(on: slide[i], damping: 0.01 N*s/m);
+                    }}
+                    {law}
+                }}"
+            );
+            Study::new(machine(&text))
+        };
+        let modes = study("").modes().expect("modes").modes;
+        assert_eq!(modes.len(), 12);
+        let omega = |n: f64| (30.0 * n * n - 0.005 * 0.005_f64).sqrt();
+        for (n, mode) in (1..).zip(&modes) {
+            let expected = Complex::new(-0.005, omega(f64::from(n)));
+            assert!((mode.s - expected).norm() < 1e-9 * expected.norm(), "{length} {n}: {} {expected}", mode.s);
+        }
+        let grows = study("force pushed: damper(on: slide[7], damping: -0.02 N*s/m);");
+        let stability = grows.equilibrium().expect("a state").stability;
+        assert_eq!(stability, Stability::Flutter { growing: 1 }, "{length}");
+        let gives = study("force pushed: spring(on: slide[7], stiffness: -2000 N/m);");
+        let stability = gives.equilibrium().expect("a state").stability;
+        assert_eq!(stability, Stability::Divergent { negative: 1 }, "{length}");
+    }
+}
