@@ -127,7 +127,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
 /// The rooms of other crates that have several, in order: each may import the earlier ones.
 const CRATE_ROOMS: [(&str, &[&str]); 8] = [
     ("macros/symbolic", &["base", "algebra", "program"]),
-    ("macros/language", &["base", "syntax", "mistakes", "include", "model"]),
+    ("macros/language", &["base", "matrix_market", "syntax", "mistakes", "include", "model"]),
     ("runtime/contract", &["scalar", "mechanism"]),
     ("runtime/numerics", &["algebra", "linear", "rounding", "eigenproblem"]),
     (
@@ -177,7 +177,7 @@ const TYPE_FILES: [(&str, &[&str]); 14] = [
     ("language/src/syntax/ast.rs", &[]),
     (
         "language/src/model/mechanism.rs",
-        &["beam", "constraint", "excitation", "expression", "shaft", "shape", "tolerance", "unit"],
+        &["beam", "constraint", "excitation", "expression", "shaft", "shape", "superelement", "tolerance", "unit"],
     ),
     ("language/src/model/beam.rs", &["expression"]),
     ("language/src/model/shaft.rs", &["expression"]),

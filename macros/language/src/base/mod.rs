@@ -6,5 +6,6 @@ pub mod ids;
 pub mod legendre;
 pub mod names;
 pub mod nearest;
+pub(crate) mod quoted;
 pub mod span;
 pub mod units;

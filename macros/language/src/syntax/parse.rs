@@ -29,8 +29,8 @@ use super::scope::{Content, Parts, Scope};
 use super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::joined;
+use crate::base::quoted::{placed, quoted};
 use crate::base::span::Extent;
-use crate::include::{placed, quoted};
 
 /// Reads a declaration without syntax errors.
 pub fn parse(tokens: TokenStream) -> Result<Ast, Diagnostics> {

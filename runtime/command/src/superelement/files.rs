@@ -7,8 +7,8 @@ use eigentol_compiler::matrix_market::{self, Mistake, end};
 use serde::Deserialize;
 
 use super::json::{At, File, Source};
-use super::matrix::{DAMPING, MASS, Matrix, Role, STIFFNESS, Wanted};
-use super::{abaqus, calculix, dmig, first, harwell_boeing, op4};
+use super::matrix::{DAMPING, MASS, Matrix, Role, STIFFNESS, Wanted, first};
+use super::{abaqus, calculix, dmig, harwell_boeing, op4};
 use crate::declaration::Declaration;
 use crate::failure::Failure;
 

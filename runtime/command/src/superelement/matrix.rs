@@ -4,8 +4,6 @@ use std::collections::{HashMap, HashSet};
 
 use eigentol_compiler::matrix_market::{self, MOST_ROWS, Mistake, Word};
 
-use super::first;
-
 /// A node and a direction, 1 to 6, or 0 of what has none.
 pub(super) type Label = (i64, u8);
 
@@ -110,4 +108,9 @@ impl Wanted<'_> {
         let has = if names.is_empty() { "none".to_owned() } else { format!("`{}`", names.join("`, `")) };
         Err(first(format!("there is not one matrix {wanted}, the file has {has}: give the `name` beside `file`")))
     }
+}
+
+/// A mistake of a whole file.
+pub(super) fn first(message: impl Into<String>) -> Mistake {
+    Mistake { line: 1, column: 1, message: message.into() }
 }

@@ -21,7 +21,9 @@ use eigentol_compiler::matrix_market::{MOST_ROWS, Mistake, write};
 
 use self::assembly::{Order, Row};
 use self::files::Files;
+use self::matrix::first;
 use self::part::Part;
+pub(crate) use self::part::identifier;
 use crate::declaration::Declaration;
 use crate::failure::Failure;
 
@@ -77,15 +79,4 @@ impl Declaration {
     fn wrong(&self) -> impl Fn(Mistake) -> Failure {
         |mistake| self.refused(vec![mistake.into()])
     }
-}
-
-/// A mistake of a whole file.
-fn first(message: impl Into<String>) -> Mistake {
-    Mistake { line: 1, column: 1, message: message.into() }
-}
-
-/// A name that a declaration and a file can have.
-pub(crate) fn identifier(text: &str) -> String {
-    let plain: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    if plain.starts_with(|c: char| c.is_ascii_alphabetic()) { plain } else { format!("part_{plain}") }
 }

@@ -7,9 +7,8 @@ use eigentol_compiler::matrix_market::Mistake;
 use super::assembly::{Row, in_order, rows};
 use super::files::Found;
 use super::json::{self, At, File};
-use super::matrix::Label;
+use super::matrix::{Label, first};
 use super::units::Scales;
-use super::{first, identifier};
 use crate::failure::Failure;
 
 pub(super) struct Part<'a> {
@@ -109,4 +108,10 @@ impl<'a> Part<'a> {
 fn capitalised(name: &str) -> String {
     let words = name.split('_').filter(|word| !word.is_empty());
     words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]).collect()
+}
+
+/// A name that a declaration and a file can have.
+pub(crate) fn identifier(text: &str) -> String {
+    let plain: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if plain.starts_with(|c: char| c.is_ascii_alphabetic()) { plain } else { format!("part_{plain}") }
 }

@@ -15,7 +15,7 @@ use super::placements::zero;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
-use crate::include::{DATA, ending};
+use crate::base::quoted::{DATA, ending};
 use crate::matrix_market;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify::add;

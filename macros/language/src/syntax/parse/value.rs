@@ -11,8 +11,8 @@ use super::repeat::terms;
 use super::unit::{self, missing_sign};
 use super::words::{GRADE, KEYWORDS};
 use crate::base::diagnostics::Diagnostic;
+use crate::base::quoted::file_name;
 use crate::base::span::Extent;
-use crate::include::file_name;
 
 /// Maximum height of the resulting tree, to which a long sum adds one level per term.
 const HIGHEST: u16 = 256;
