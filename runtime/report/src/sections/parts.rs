@@ -42,12 +42,15 @@ fn bodies(scene: &Scene) -> Table {
         [] => "massless".to_owned(),
         all => all.iter().map(solid).collect::<Vec<_>>().join("; "),
     };
-    let made_of = all.map(made_of).chain(scene.beams.iter().map(beam));
+    let made_of = all.map(made_of).chain(scene.beams.iter().map(|member| beam(scene, member)));
     table.texts("made of", made_of.map(Some));
     table
 }
 
-fn beam(member: &Beam) -> String {
+fn beam(scene: &Scene, member: &Beam) -> String {
+    if scene.is_shaft(member) {
+        return shaft(member);
+    }
     let size = |[width, height]: [f64; 2]| {
         if member.round {
             format!("diameter {}", number(width))
@@ -65,6 +68,16 @@ fn beam(member: &Beam) -> String {
         format!("beam, {}", size(root))
     } else {
         format!("beam, {} to {}", size(root), size(tip))
+    }
+}
+
+fn shaft(member: &Beam) -> String {
+    let diameters = member.sections.iter().map(|section| section.size[0]);
+    let (least, most) = (diameters.clone().fold(f64::INFINITY, f64::min), diameters.fold(0.0, f64::max));
+    match (least, most) {
+        (_, 0.0) => "shaft".to_owned(),
+        (least, most) if least == most => format!("shaft, diameter {}", number(most)),
+        (least, most) => format!("shaft, diameters {} to {}", number(least), number(most)),
     }
 }
 
