@@ -6,7 +6,7 @@ use crate::model::mechanism::{CrossSection, ShaftStation};
 use crate::model::simplify::{add, divide, multiply};
 
 /// Parts of a whole shaft at least, so that it is seen to bend.
-const PARTS: f64 = 16.0;
+const PARTS: usize = 16;
 
 impl Declared {
     /// The cross-sections at the ends of all rows and, of long ones, between.
@@ -19,7 +19,8 @@ impl Declared {
             let mut before = Expr::Number(0.0);
             for row in rows {
                 let after = add(before.clone(), row.length.clone());
-                let parts = (PARTS * nominal(&row.length) / total - 1e-9).ceil().min(PARTS).max(1.0) as usize;
+                let parts = PARTS as f64 * nominal(&row.length) / total - 1e-9;
+                let parts = (parts.ceil() as usize).clamp(1, PARTS);
                 for part in 0..=parts {
                     let share = part as f64 / parts as f64;
                     let diameter = between(&row.outer, share);
