@@ -33,7 +33,8 @@ pub(crate) fn remember(machine: &Interpreted, compilation: &Compilation) {
         })
     };
     let picture = machine.picture_info();
-    let beams = picture.beams.iter().map(|beam| beam.name.to_string());
+    let is_shaft = |name: &str| picture.joints.iter().any(|joint| &*joint.kind == "station" && &*joint.name == name);
+    let beams = picture.beams.iter().map(|beam| beam.name.to_string()).filter(|name| !is_shaft(name));
     let closed = unknowns().any(|x| x.role == Role::PositionReaction);
     let inextensible = beams.filter(|beam| closed && !stretches(beam)).collect();
     let _ = INEXTENSIBLE.set(inextensible);

@@ -56,30 +56,31 @@ function tube(center, { axis, inner, outer, length: long }, sides) {
 
 // Sections of a beam with two more between any two: the centre line is the cubic that has its direction at both.
 function smoothed(sections) {
-  const between = (a, b) => [1 / 3, 2 / 3].map((share) => {
+  const between = (a, b) => [1 / 3, 2 / 3].flatMap((share) => {
     const mix = (p, q) => p.map((value, k) => value + share * (q[k] - value));
     const chord = length(minus(b.pose.position, a.pose.position));
+    if (chord === 0) return [];
     const [along, onward] = [a, b].map(({ pose }) => times(chord, turned(pose.rotation, [1, 0, 0])));
     const rest = 1 - share;
     const straight = plus(times(rest * rest * (1 + 2 * share), a.pose.position), times(share * share * (1 + 2 * rest), b.pose.position));
     const bent = plus(times(rest * rest * share, along), times(-share * share * rest, onward));
     const rotation = a.pose.rotation.map((row, k) => mix(row, b.pose.rotation[k]));
-    return { pose: { position: plus(straight, bent), rotation }, size: mix(a.size, b.size) };
+    return [{ pose: { position: plus(straight, bent), rotation }, size: mix(a.size, b.size) }];
   });
   return sections.flatMap((section, k) => (k === 0 ? [section] : [...between(sections[k - 1], section), section]));
 }
 
 // The faces of a beam between its sections, in the common frame.
-function beamFaces(sections, round) {
+function beamFaces(sections, round, sides) {
   const rims = sections.map(({ pose, size: [width, height] }) => {
     const rim = round
-      ? Array.from({ length: COARSE }, (_, n) => (2 * Math.PI * n) / COARSE).map((angle) => [Math.cos(angle) / 2, Math.sin(angle) / 2])
+      ? Array.from({ length: sides }, (_, n) => (2 * Math.PI * n) / sides).map((angle) => [Math.cos(angle) / 2, Math.sin(angle) / 2])
       : [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]];
     return rim.map(([across, up]) => placed(pose, [0, width * across, height * up]));
   });
   const belts = rims.slice(1).flatMap((over, k) => belt(rims[k], over));
-  const sides = belts.map(({ corners }) => ({ corners, smooth: round }));
-  return [...sides, { corners: rims[rims.length - 1] }, { corners: [...rims[0]].reverse() }];
+  const sheath = belts.map(({ corners }) => ({ corners, smooth: round }));
+  return [...sheath, { corners: rims[rims.length - 1] }, { corners: [...rims[0]].reverse() }];
 }
 
 function box(center, edges, size) {

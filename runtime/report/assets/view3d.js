@@ -3,6 +3,7 @@
 const BODY_COLOURS = ["#4d9fd1", "#e8b04a", "#5cc2a0", "#d98a5b", "#b08ac0", "#9ccff0", "#c9c06a", "#8fa3ad"];
 const LIGHT = unit([0.35, 0.55, 0.75]);
 const REST = "#9a9a9a";
+const LINK = "#7a3b69";
 // Rotations that bring a direction of the common frame upwards.
 const UPRIGHT = {
   z: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
@@ -24,16 +25,22 @@ class Model {
     this.middle = times(0.5, plus(low, high));
     this.size = length(minus(high, low)) || 1;
     this.rest = [...scene.bodies, ...scene.beams.flatMap(({ sections }) => sections)].map(({ pose }) => pose);
-    const flexures = scene.joints.filter(({ kind }) => kind === "flexure");
-    // The roots and stations of beams: the beams show where they are.
-    this.ofBeams = new Set(flexures.flatMap(({ from, to }) => [from.body, to.body]));
+    const flexures = scene.joints.filter(isFlexure);
+    // The roots and stations of beams and shafts: the beams show where they are.
+    const ofFlexures = new Set(flexures.flatMap(({ from, to }) => [from.body, to.body]));
+    this.ofBeams = new Set([...ofFlexures].filter((body) => scene.bodies[body]?.solids.length === 0));
     // An ellipsoid stands for masses and moments of inertia: the joints within it are what one knows of the body.
     this.vague = scene.bodies.map(({ solids }, body) => !this.ofBeams.has(body) && solids.every(({ shape }) => "Ellipsoid" in shape));
     const faces = (sides) => scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size, sides)));
     this.faces = faces(FINE);
     this.coarse = faces(COARSE);
+    this.shafts = new Set(shaftsOf(scene).map(({ name }) => name));
+    this.bearings = bearingsOf(scene);
+    this.superelements = superelementsOf(scene);
+    this.ofSuperelements = new Set(this.superelements.flat());
     this.sticks = scene.bodies.map((_, number) => this.stick(number));
     this.colours = this.colourBodies();
+    for (const [first, ...others] of this.superelements) for (const body of others) this.colours[body] = this.colours[first];
   }
 
   // Each beam with the poses of its sections, which follow those of the bodies.
@@ -126,6 +133,7 @@ class Painter {
     const jobs = [];
     const all = this.fine ? this.model.faces : this.model.coarse;
     all.forEach((faces, body) => {
+      if (this.model.ofSuperelements.has(body)) return;
       const pose = poses[body];
       for (const { corners, smooth } of faces) {
         const there = corners.map((corner) => placed(pose, corner));
@@ -138,6 +146,10 @@ class Painter {
         jobs.push({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], colour, 2) });
       }
     });
+    for (const stations of this.model.superelements) {
+      const faces = spokes(stations.map((body) => poses[body].position), this.model.size);
+      jobs.push(...faces.flatMap(({ corners, smooth }) => this.face(corners, smooth, this.model.colours[stations[0]], ghost)));
+    }
     return jobs;
   }
 
@@ -154,7 +166,7 @@ class Painter {
   // stroke along the second axis says how a section stands.
   beams(poses, ghost) {
     const stroke = 0.02 * this.model.size;
-    return this.model.beams(poses).flatMap(({ sections, round }, number) => {
+    return this.model.beams(poses).flatMap(({ name, sections, round }, number) => {
       const drawn = this.fine ? smoothed(sections) : sections;
       const colour = this.model.colours[this.model.scene.bodies.length + number];
       const line = ghost ? "#dddddd" : colour;
@@ -167,15 +179,14 @@ class Painter {
       }
       const jobs = lines.map(([a, b]) => ({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], line, 2) }));
       if (!shaped) return jobs;
-      const faces = beamFaces(drawn, round);
+      const faces = beamFaces(drawn, round, this.fine && this.model.shafts.has(name) ? FINE : COARSE);
       return [...jobs, ...faces.flatMap(({ corners, smooth }) => this.face(corners, smooth, colour, ghost))];
     });
   }
 
   joints(poses) {
     const long = 0.035 * this.model.size;
-    return this.model.scene.joints.flatMap(({ kind, from }) => {
-      if (kind === "flexure") return [];
+    return this.model.scene.joints.filter((joint) => !isFlexure(joint)).flatMap(({ from }) => {
       const place = this.model.place(poses, from.body, from.place);
       const seen = this.see(place);
       // In front of what it holds together.
@@ -190,13 +201,17 @@ class Painter {
     });
   }
 
+  // Bushings as springs, and around a shaft as collars too.
   links(poses) {
-    return this.model.scene.links.map(({ kind, ends }) => {
+    const collars = this.model.bearings.flatMap((bearing) =>
+      collar(this.model.point(poses, bearing.seat), bearing).flatMap(({ corners }) => this.face(corners, true, LINK, false, true)));
+    const lines = this.model.scene.links.map(({ kind, ends }) => {
       const [a, b] = ends.map((end) => this.see(this.model.point(poses, end)));
       const points = /spring|bushing/.test(kind) ? zigzag(a, b) : [a, b];
       const depth = (a[2] + b[2]) / 2 + 0.01 * this.model.size;
-      return { depth, paint: () => this.line(points, "#7a3b69", 1.6) };
+      return { depth, paint: () => this.line(points, LINK, 1.6) };
     });
+    return [...collars, ...lines];
   }
 
   wheels(poses) {
@@ -216,7 +231,7 @@ class Painter {
     this.context.font = "12px system-ui, sans-serif";
     const { bodies } = this.model.scene;
     bodies.forEach(({ name, solids }, body) => {
-      if (this.model.ofBeams.has(body)) return;
+      if (this.model.ofBeams.has(body) || this.model.superelements.some((stations) => stations.indexOf(body) > 0)) return;
       const [x, y] = this.see(placed(poses[body], solids[0]?.center ?? [0, 0, 0]));
       this.written(name, x + 5, y - 5);
     });

@@ -16,13 +16,14 @@ use crate::words::operating_point;
 use crate::{Error, sections};
 
 /// Scripts in dependency order, joined into one module so that none of their names is global.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 10] = [
     include_str!("../assets/svg.js"),
     include_str!("../assets/axes.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/tables.js"),
     include_str!("../assets/vectors.js"),
     include_str!("../assets/solids.js"),
+    include_str!("../assets/stations.js"),
     include_str!("../assets/view3d.js"),
     include_str!("../assets/player.js"),
     include_str!("../assets/page.js"),

@@ -6,4 +6,5 @@ mod joints;
 mod modes;
 mod oracle;
 mod robots;
+mod shafts;
 mod space;

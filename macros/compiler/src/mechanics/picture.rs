@@ -9,7 +9,7 @@ use crate::model::mechanism::Frame;
 pub struct Picture {
     /// Bodies.
     pub bodies: Vec<PictureBody>,
-    /// Beams.
+    /// Beams, then shafts.
     pub beams: Vec<PictureBeam>,
     /// Joints.
     pub joints: Vec<PictureJoint>,
@@ -36,12 +36,13 @@ pub struct PictureBody {
     pub solids: Vec<(SolidKind, bool)>,
 }
 
-/// A beam.
+/// A beam or a shaft.
 #[derive(Clone, Debug)]
 pub struct PictureBeam {
     /// Declared name.
     pub name: String,
-    /// The number of its sections that are shown, from the root to the tip; two where a load splits it.
+    /// The number of its sections that are shown, from the root to the tip; two where a load splits it or the diameter of
+    /// a shaft jumps.
     pub sections: u32,
     /// Whether its sections are circles or tubes.
     pub round: bool,

@@ -15,7 +15,7 @@ pub use super::beam::{Beam, Section, Station};
 pub use super::constraint::{Constraint, ConstraintLaw};
 pub use super::excitation::{Deviation, Excitation, ExcitationLaw, Frequency, ShakenBy};
 use super::expression::{Expr, Matrix, Vector};
-pub use super::shaft::{LUMPED, Line, NUMBERS, Shaft, ShaftStation, Span};
+pub use super::shaft::{CrossSection, LUMPED, Line, NUMBERS, Shaft, ShaftStation, Span};
 pub use super::shape::Shape;
 pub use super::superelement::Superelement;
 pub use super::tolerance::{Law, Tolerance};

@@ -16,14 +16,25 @@ pub struct Shaft {
     pub speed: Expr,
     /// Mass of each section, kg.
     pub masses: Vec<Expr>,
-    /// Lengths and outer diameters of its sections, m.
-    pub sizes: Vec<[Expr; 2]>,
+    /// How it is seen: cross-sections from the root to the tip, linear between, two where the diameter jumps.
+    pub outline: Vec<CrossSection>,
     /// Its stations in order; the first is at the root, the last at the tip.
     pub stations: Vec<ShaftStation>,
     /// What bends, twists or stretches between neighbouring stations.
     pub spans: Vec<Span>,
     /// What must be positive in any design, and its values.
     pub positive: Vec<(String, Expr)>,
+}
+
+/// A cross-section of a shaft as it is seen.
+#[derive(Clone, Debug)]
+pub struct CrossSection {
+    /// Number of the station before it; the next one is not before it.
+    pub station: usize,
+    /// Its place between the two, from 0 to 1.
+    pub fraction: Expr,
+    /// Outer diameter, m; zero where the shaft is known by numbers only.
+    pub diameter: Expr,
 }
 
 /// A place of a shaft or a superelement with a frame of its own, which does not spin.

@@ -5,6 +5,9 @@
 
 use crate::Text;
 
+/// The kind of the joints between the ground and the stations of shafts and superelements.
+const STATION: &str = "station";
+
 /// A mechanism at one state. Lengths m, masses kg.
 ///
 /// The common frame is the ground's, at the instant when all running coordinates (driven and coasting ones) are zero.
@@ -14,7 +17,7 @@ use crate::Text;
 pub struct Scene {
     /// The bodies, in declaration order.
     pub bodies: Vec<Body>,
-    /// The beams, in declaration order.
+    /// The beams, in declaration order, then the shafts.
     pub beams: Vec<Beam>,
     /// The joints, in declaration order.
     pub joints: Vec<Joint>,
@@ -58,11 +61,18 @@ impl Scene {
         axis.map(|component| sign * component + 0.0)
     }
 
-    /// Whether a body is the root or a station of a beam: a frame of a section, which the beam shows.
+    /// Whether a body is the root or a station of a beam or a shaft: a frame of a section, which the beam shows.
     #[must_use]
     pub fn is_of_beam(&self, body: usize) -> bool {
         let mut flexures = self.joints.iter().filter(|joint| joint.is_flexure());
-        flexures.any(|joint| [joint.from.body, joint.to.body].contains(&Some(body)))
+        let is_bare = self.bodies.get(body).is_some_and(|body| body.solids.is_empty());
+        is_bare && flexures.any(|joint| [joint.from.body, joint.to.body].contains(&Some(body)))
+    }
+
+    /// Whether a beam is a shaft, whose first station carries its name.
+    #[must_use]
+    pub fn is_shaft(&self, beam: &Beam) -> bool {
+        self.joints.iter().any(|joint| &*joint.kind == STATION && joint.name == beam.name)
     }
 
     /// The number of poses: of all bodies, then of the sections of all beams.
@@ -114,11 +124,11 @@ pub struct Body {
     pub name: Text,
     /// Its position and orientation.
     pub pose: Pose,
-    /// The pieces of its mass; empty if massless.
+    /// The pieces of its mass; empty if massless. Of a station of a superelement a rod to the middle of all stations.
     pub solids: Vec<Solid>,
 }
 
-/// A beam.
+/// A beam or a shaft.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Beam {
@@ -127,7 +137,7 @@ pub struct Beam {
     /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
     pub round: bool,
     /// Sections from the root to the tip; their centres of mass are places of the centre line. Two are where a load
-    /// splits it.
+    /// splits it or the diameter of a shaft jumps.
     pub sections: Vec<Section>,
 }
 
@@ -237,10 +247,10 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Whether it connects the root of a beam to one of its stations.
+    /// Whether it connects the root of a beam to one of its stations, or the ground to one of a shaft or a superelement.
     #[must_use]
     pub fn is_flexure(&self) -> bool {
-        &*self.kind == "flexure"
+        ["flexure", STATION].contains(&&*self.kind)
     }
 }
 

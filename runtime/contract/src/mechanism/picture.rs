@@ -27,7 +27,7 @@ use super::shared::{List, Shared, Text};
 pub struct PictureInfo {
     /// The bodies, in the order of declaration.
     pub bodies: List<BodyInfo>,
-    /// The beams, in the order of declaration.
+    /// The beams, in the order of declaration, then the shafts.
     pub beams: List<BeamInfo>,
     /// The joints, in the order of declaration.
     pub joints: List<JointInfo>,
@@ -70,14 +70,14 @@ pub struct BodyInfo {
     pub solids: List<SolidInfo>,
 }
 
-/// A beam of a picture.
+/// A beam or a shaft of a picture.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BeamInfo {
     /// Declared name.
     pub name: Text,
     /// The number of its sections that are shown: at the root, at places between, and at the tip; two where a load
-    /// splits the beam.
+    /// splits the beam or the diameter of a shaft jumps.
     pub sections: u32,
     /// Its sections are circles or tubes; otherwise rectangles, or known by numbers only.
     pub round: bool,

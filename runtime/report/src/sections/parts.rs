@@ -1,6 +1,6 @@
 //! Tables of bodies, joints, forces and constraints.
 
-use eigentol::picture::{Beam, Body, Joint, Scene, Shape, Solid};
+use eigentol::picture::{Beam, Body, Joint, Scene, Section, Shape, Solid};
 use eigentol::{Description, ExcitationInfo};
 use eigentol_tables::Table;
 
@@ -33,21 +33,23 @@ fn excitations(d: &Description) -> Table {
 fn bodies(scene: &Scene) -> Table {
     let all = scene.bodies.iter().enumerate();
     let all = all.filter(|(number, _)| !scene.is_of_beam(*number));
-    let all = all.map(|(_, body)| body);
     let mut table = Table::new("bodies");
-    let names = all.clone().map(|x| &x.name);
+    let names = all.clone().map(|(_, body)| &body.name);
     let names = names.chain(scene.beams.iter().map(|beam| &beam.name));
     table.texts("body", names.map(|name| Some(name.to_string())));
-    let made_of = |body: &Body| match &body.solids[..] {
+    let is_station =
+        |number: usize| scene.joints.iter().any(|joint| joint.is_flexure() && joint.to.body == Some(number));
+    let made_of = |(number, body): (usize, &Body)| match &body.solids[..] {
         [] => "massless".to_owned(),
+        _ if is_station(number) => "station of a superelement".to_owned(),
         all => all.iter().map(solid).collect::<Vec<_>>().join("; "),
     };
-    let made_of = all.map(made_of).chain(scene.beams.iter().map(beam));
+    let made_of = all.map(made_of).chain(scene.beams.iter().map(|member| beam(scene, member)));
     table.texts("made of", made_of.map(Some));
     table
 }
 
-fn beam(member: &Beam) -> String {
+fn beam(scene: &Scene, member: &Beam) -> String {
     let size = |[width, height]: [f64; 2]| {
         if member.round {
             format!("diameter {}", number(width))
@@ -55,16 +57,22 @@ fn beam(member: &Beam) -> String {
             format!("{} x {}", number(width), number(height))
         }
     };
-    let ends = [member.sections.first(), member.sections.last()];
+    let sections = || member.sections.iter();
+    let (word, ends) = if scene.is_shaft(member) {
+        let by_size = |a: &&Section, b: &&Section| a.size[0].total_cmp(&b.size[0]);
+        ("shaft", [sections().min_by(by_size), sections().max_by(by_size)])
+    } else {
+        ("beam", [sections().next(), sections().last()])
+    };
     let [Some(root), Some(tip)] = ends.map(|end| end.map(|section| section.size)) else {
-        return "beam".to_owned();
+        return word.to_owned();
     };
     if root == [0.0; 2] {
-        "beam".to_owned()
+        word.to_owned()
     } else if root == tip {
-        format!("beam, {}", size(root))
+        format!("{word}, {}", size(root))
     } else {
-        format!("beam, {} to {}", size(root), size(tip))
+        format!("{word}, {} to {}", size(root), size(tip))
     }
 }
 

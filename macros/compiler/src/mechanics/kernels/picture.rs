@@ -8,8 +8,10 @@
 //! `Mechanism::PICTURE` holds the constants, the names and the places of the computed numbers. Callers that need no
 //! picture do not compile it.
 
+mod shafts;
+
 use crate::algebra::{Array, ExprId, Function, Graph, Matrix3, Vector3};
-use crate::base::ids::{BeamId, JointId, PointId};
+use crate::base::ids::{BeamId, BodyId, JointId, PointId};
 use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::{Kinematics, offset, unbent};
 use crate::mechanics::picture::{Picture, PictureBeam, PictureBody, PictureJoint, PictureLink, SolidKind};
@@ -31,10 +33,19 @@ pub(crate) fn picture(g: &mut Graph, context: &Context, kinematics: &Kinematics)
     for id in (0..mechanism.beams.len()).map(BeamId::new) {
         numbers.poses_of_beam(g, kinematics, id, &mechanism.beams[id.index()]);
     }
-    let bodies = mechanism.bodies.iter();
-    let bodies = bodies.map(|body| numbers.body(g, body)).collect();
+    for shaft in &mechanism.shafts {
+        numbers.poses_of_shaft(g, kinematics, shaft);
+    }
+    let bodies = mechanism.bodies.iter().enumerate();
+    let bodies = bodies.map(|(index, body)| {
+        let mut shown = numbers.body(g, body);
+        shown.solids.extend(numbers.spoke(g, mechanism, BodyId::new(index)));
+        shown
+    });
+    let bodies = bodies.collect();
     let beams = mechanism.beams.chunk_by(|a, b| a.whole == b.whole);
-    let beams = beams.filter_map(|parts| numbers.beam(g, parts)).collect();
+    let mut beams: Vec<PictureBeam> = beams.filter_map(|parts| numbers.beam(g, parts)).collect();
+    beams.extend(mechanism.shafts.iter().map(|shaft| numbers.shaft(g, shaft)));
     let joints = mechanism.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| {
         let cut = context.topology.cut.contains(&JointId::new(index));

@@ -3,15 +3,16 @@
 mod at_rest;
 pub(super) mod declared;
 mod file;
+mod outline;
 pub(super) mod stations;
 
 use proc_macro2::Ident;
 
-use self::declared::{Declared, Section};
+use self::declared::{Declared, Row, Section};
 use super::arguments::Arguments;
 use super::beams::declared::Flexible;
 use super::beams::table::{Kind, Properties, Table};
-use super::bodies::{Row, SHAFT};
+use super::bodies::{self, SHAFT};
 use super::expected::Expected;
 use super::placements::zero;
 use super::resolver::Resolver;
@@ -39,7 +40,7 @@ type Whole = (Properties, Option<Expr>);
 impl Resolver<'_> {
     /// A shaft stands alone: no other shape can be added to it.
     pub(super) fn shaft(&mut self, body: &ast::Body, shaft: &Term) -> Option<()> {
-        static SIGNATURE: Row = SHAFT;
+        static SIGNATURE: bodies::Row = SHAFT;
         let word = &shaft.shape.word;
         if body.terms.len() > 1 || shaft.hole {
             let message = "`shaft` stands alone: it cannot be part of a sum";
@@ -178,7 +179,7 @@ impl Resolver<'_> {
         given: &Arguments<'_>,
         bends: Option<Line>,
         lines: Option<[bool; 3]>,
-    ) -> Option<Vec<Vec<Section>>> {
+    ) -> Option<Vec<Row>> {
         let [bending, twists, stretches] = lines?;
         let shears = bending && bends == Some(Line::Timoshenko);
         let force = Dimension::FORCE;
@@ -211,11 +212,12 @@ impl Resolver<'_> {
         let numbers: Vec<Expr> = numbers.into_iter().collect::<Option<_>>()?;
         let [length, mass, rotary, bending, shear, twist, stretch] = <[Expr; 7]>::try_from(numbers).ok()?;
         let polar = multiply(Expr::Number(2.0), rotary.clone());
-        let outer = Expr::Number(0.0);
-        Some(vec![vec![Section { length, outer, mass, rotary, polar, bending, shear, twist, stretch }]])
+        let outer = [Expr::Number(0.0), Expr::Number(0.0)];
+        let sections = vec![Section { length: length.clone(), mass, rotary, polar, bending, shear, twist, stretch }];
+        Some(vec![Row { length, outer, sections }])
     }
 
-    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Vec<Section>>> {
+    fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Row>> {
         let in_file = match &value.kind {
             ValueKind::File(file) => Some(self.sections_in_file(value, file)?),
             _ => None,
@@ -241,7 +243,7 @@ impl Resolver<'_> {
             Some(row_of_layers(&length, &layers, ((STEPS * folds) as usize).clamp(FEWEST, MOST_STEPS)))
         });
         // Every row is read, so that each mistake is reported.
-        let sections: Vec<Option<Vec<Section>>> = sections.collect();
+        let sections: Vec<Option<Row>> = sections.collect();
         sections.into_iter().collect()
     }
 
@@ -346,8 +348,7 @@ impl Resolver<'_> {
             is_flat: false,
             is_matrix: false,
         };
-        let [outer, _] = diameters;
-        Some(Layer { outer, table, coefficient })
+        Some(Layer { outer: diameters, table, coefficient })
     }
 
     /// A size at the beginning and at the end of a section: `taper(60 mm, 40 mm)`, or one for both.
@@ -384,8 +385,8 @@ impl Resolver<'_> {
 
 /// A layer of a section, whose sizes change linearly along it.
 struct Layer {
-    /// At the beginning.
-    outer: Expr,
+    /// At the beginning and at the end.
+    outer: [Expr; 2],
     table: Table,
     coefficient: Option<Expr>,
 }
@@ -418,8 +419,17 @@ impl Layer {
     }
 }
 
+fn row_of_layers(length: &Expr, layers: &[Layer], steps: usize) -> Row {
+    let outer = layers.last().map(|layer| layer.outer.clone());
+    Row {
+        length: length.clone(),
+        outer: outer.unwrap_or([Expr::Number(0.0), Expr::Number(0.0)]),
+        sections: sections_of_layers(length, layers, steps),
+    }
+}
+
 /// What a row of the table stands for: one section, or if it is tapered so many pairs.
-fn row_of_layers(length: &Expr, layers: &[Layer], steps: usize) -> Vec<Section> {
+fn sections_of_layers(length: &Expr, layers: &[Layer], steps: usize) -> Vec<Section> {
     let at = |fraction: f64, length: Expr| {
         let sections: Vec<mechanism::Section> = layers.iter().map(|layer| layer.section(fraction)).collect();
         let sum = |of: fn(&mechanism::Section) -> &Expr| {
@@ -428,7 +438,6 @@ fn row_of_layers(length: &Expr, layers: &[Layer], steps: usize) -> Vec<Section> 
         let rotary = sum(|layer| &layer.inertia[0]);
         Section {
             length,
-            outer: layers.last().map_or(Expr::Number(0.0), |layer| layer.outer.clone()),
             mass: sum(|layer| &layer.mass),
             polar: multiply(Expr::Number(2.0), rotary.clone()),
             rotary,

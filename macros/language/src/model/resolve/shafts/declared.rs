@@ -12,8 +12,7 @@ pub(in crate::model::resolve) struct Declared {
     pub(super) speed: Expr,
     pub(super) lag: Expr,
     pub(super) drag: Expr,
-    /// What each row of the table stands for: one section, or if it is tapered several.
-    pub(super) rows: Vec<Vec<Section>>,
+    pub(super) rows: Vec<Row>,
     /// What bends, and whether it twists and stretches.
     pub(super) bending: Option<Line>,
     pub(super) twists: bool,
@@ -22,11 +21,20 @@ pub(in crate::model::resolve) struct Declared {
     pub(super) positive: Vec<(String, Expr)>,
 }
 
+/// A row of the table.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub(super) length: Expr,
+    /// Outer diameter at its beginning and at its end.
+    pub(super) outer: [Expr; 2],
+    /// What it stands for: one section, or if it is tapered several.
+    pub(super) sections: Vec<Section>,
+}
+
 /// A section that is the same all along: numbers of all its layers together.
 #[derive(Clone, Debug)]
 pub(super) struct Section {
     pub(super) length: Expr,
-    pub(super) outer: Expr,
     pub(super) mass: Expr,
     pub(super) rotary: Expr,
     pub(super) polar: Expr,
@@ -44,7 +52,7 @@ impl Declared {
 
     /// The sections between two stations.
     pub(super) fn between(&self, first: usize, last: usize) -> impl Iterator<Item = &Section> {
-        self.rows[first..last].iter().flatten()
+        self.rows[first..last].iter().flat_map(|row| &row.sections)
     }
 }
 
@@ -64,7 +72,6 @@ impl Section {
         };
         Self {
             length: first.length.clone(),
-            outer: first.outer.clone(),
             mass: sum(&first.mass, &last.mass),
             rotary: sum(&first.rotary, &last.rotary),
             polar: sum(&first.polar, &last.polar),

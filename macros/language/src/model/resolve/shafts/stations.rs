@@ -79,10 +79,7 @@ impl Resolver<'_> {
                 axes: declared.axes.clone(),
                 speed: declared.speed.clone(),
                 masses: declared.between(0, declared.last()).map(mass).collect(),
-                sizes: declared
-                    .between(0, declared.last())
-                    .map(|own| [own.length.clone(), own.outer.clone()])
-                    .collect(),
+                outline: declared.outline(&stations, |length| self.nominal_of(length)),
                 stations,
                 spans,
                 positive: declared.positive.clone(),
