@@ -140,15 +140,16 @@ impl<M: DirectionalKernels> Study<M> {
         orders: &[impl Into<Line> + Copy],
         over: DesignVariable<M>,
         values: &[f64],
-    ) -> Result<EventMap, Error>
-    where
-        M: Clone,
-    {
+    ) -> Result<EventMap, Error> {
         let range = self.settings.range(input.any(), low.into(), high.into())?;
         let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        let ends = [range.low, range.high];
+        let axes = Axes::new(input.any(), &ends, &lines);
         let at = |value: &f64| {
-            let study = self.clone().design(over, *value);
-            (*value, study.campbell(input, &[range.low, range.high], &lines))
+            let mut settings = self.settings.clone();
+            settings.set_value(over.any().into(), (*value).into());
+            let along = Along::deviating(&settings, &self.mechanism);
+            (*value, along.and_then(|along| along.campbell_each(&axes, &mut |_| ControlFlow::Continue(()))))
         };
         let of = (self.input_values(), self.mechanism.description());
         Ok(EventMap::of((input.any(), over.any()), of, values.iter().map(at)))

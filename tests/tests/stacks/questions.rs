@@ -10,7 +10,7 @@ use eigentol::mistuning::EngineOrder;
 use eigentol::requirement::Requirement;
 use eigentol::response::{Response, Vibration};
 use eigentol::sensitivity::Quantity;
-use eigentol::{Error, Excitation, Input, Output, Study, sweep};
+use eigentol::{DesignVariable, Error, Excitation, Input, Output, Study, sweep};
 
 /// Where the interesting ranges of a machine lie.
 #[derive(Clone, Copy)]
@@ -232,6 +232,12 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels
         ("events", |s, range| {
             let [low, high] = range.crossings;
             answered(s.events(input(), low, high, &[range.order]));
+        }),
+        ("event_map", |s, range| {
+            let [low, high] = range.crossings;
+            let over = DesignVariable::new(0);
+            let value = s.design_values()[0];
+            answered(s.event_map(input(), low, high, &[range.order], over, &[value]));
         }),
         between!(branches, branches),
         ("branches_with", |s, range| {

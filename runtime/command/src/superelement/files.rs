@@ -6,9 +6,13 @@ use std::path::{Path, PathBuf};
 use eigentol_compiler::matrix_market::{self, Mistake, end};
 use serde::Deserialize;
 
+use super::abaqus;
+use super::calculix;
+use super::dmig;
+use super::harwell_boeing;
 use super::json::{At, File, Source};
 use super::matrix::{DAMPING, MASS, Matrix, Role, STIFFNESS, Wanted, first};
-use super::{abaqus, calculix, dmig, harwell_boeing, op4};
+use super::op4;
 use crate::declaration::Declaration;
 use crate::failure::Failure;
 

@@ -237,6 +237,7 @@ fn every_subcommand_ends_soon() {
         ask("expand", &long),
         ask("converge", &long),
         ask("campbell", &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv")),
+        ask("map", &format!("{long} --sweep omega=4..8rad/s --over l=1..9m --values 1000000")),
         ask("sweep", &format!("{pendulum} --sweep omega=4..8rad/s --points 1e6 --csv")),
         ask("mistuning", &format!("{} --set omega=600rpm --order 2 --samples 2000000000", rotor_of_blades.display())),
         ask("branches", &format!("{short} --sweep omega=0..60rad/s")),

@@ -25,6 +25,9 @@ fn the_reference_page_is_right() {
             read(&format!("mechanism Fragment {{ {text} }}"));
             continue;
         }
+        if language == "csv" {
+            continue;
+        }
         let (_, inside) = text.split_once("mechanism! {").expect("a declaration");
         let (declaration, _) = inside.rsplit_once('}').expect("a closing brace");
         let tokens = declaration.parse().expect("tokens");

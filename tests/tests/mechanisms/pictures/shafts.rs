@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use eigentol::Study;
-use eigentol::kernels::DeviatingInputs;
 use eigentol::picture::{Beam, Scene, Section, Shape, scene};
 use eigentol_interpreter::Interpreted;
 
