@@ -61,7 +61,7 @@
 //! | How bad can it get within the limits? | [`worst_case`](Study::worst_case) | [`propagation::worst_case`] |
 //! | How probable is it that requirements are met, and what changes that? | [`probability`](Study::probability), [`chances`](Study::chances), [`reliability`](Study::reliability) | [`requirement::Requirements`] |
 //! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
-//! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
+//! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell), over a design variable too [`event_map`](Study::event_map) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
 //! | Where is it critical, and how far do tolerances move that point? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance), [`critical_curvature`](Study::critical_curvature), [`events`](Study::events) | [`sweep::critical_state`], [`sweep::critical_tolerance`], [`second_order::critical_curvature`] |
 //! | Where does it resonate, and where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
 //!

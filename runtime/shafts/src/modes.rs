@@ -212,7 +212,8 @@ impl Assembly {
     }
 
     /// Modes from approximations, for example those at a neighbouring speed or design, by Newton's method side by side in the
-    /// vectors of the processor; `None` for one that does not converge. The bits of each do not depend on the others.
+    /// vectors of the processor; `None` for one that does not converge. The bits of each do not depend on the others, but of those
+    /// that are nearly equal.
     #[must_use]
     pub fn refined(&self, starts: &[Mode]) -> Vec<Option<Mode>> {
         let mut running: Vec<(usize, Mode, f64)> =

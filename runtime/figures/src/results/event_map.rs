@@ -13,6 +13,32 @@ use crate::style::Style;
 /// The events of each mode as a line over the values of the design variable, logarithmic where these span a decade, with bands of
 /// as many standard deviations as the tolerances span.
 ///
+/// ```
+/// use eigentol::{Study, mechanism};
+/// use eigentol_figures::{Style, event_map};
+///
+/// mechanism! {
+///     mechanism Pendulum {
+///         input omega: rad/s;
+///         design l = 1 m +/- 3%;
+///         gravity 9.81 m/s^2 along -z;
+///         body shaft: massless;
+///         body bar: rod(mass: 3 kg, length: l, along: -z);
+///         joint spin: revolute(z) from ground to shaft, driven at omega;
+///         joint theta: revolute(y) from shaft to bar;
+///     }
+/// }
+///
+/// let study = Study::new(Pendulum);
+/// let map = study.event_map(Pendulum::omega, 0.5, 20.0, &[1.0], Pendulum::l, &[0.2, 1.0, 5.0])?;
+/// let panel = &event_map(&map, &Style::of(&study))?.panels[0];
+/// // The bar swings outwards where omega^2 = 3 g / (2 l); its frequency crosses the speed at half of that.
+/// assert!(panel.x.logarithmic && panel.curves.len() == 2 && panel.bands.len() == 2);
+/// let highest = panel.curves.iter().map(|curve| curve.pieces[0][1][1]).fold(0.0, f64::max);
+/// assert!((highest * highest - 14.715).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`Error::Nothing`] where nothing happens at any of the values.
 pub fn event_map(map: &EventMap, style: &Style) -> Result<Figure, Error> {

@@ -51,7 +51,7 @@ pub(super) fn normalise_by_mass(x: &mut [Complex], mass: &Matrix) -> bool {
 
 /// Normalises a vector; the first `leading` components fix the phase.
 pub(super) fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usize) -> bool {
-    let lead = lead(&x[..leading]);
+    let lead = lead(&x[..leading.min(x.len())]);
     let Some(most) = x.get(lead).copied().filter(|value| value.norm() > 0.0) else {
         return false;
     };

@@ -1,7 +1,7 @@
 //! Modes of mechanisms with shafts, the stability that follows from them, and how they move what spins.
 
 use super::mode::{Behaviour, Mode};
-use super::normalisation::normalise_by_mass;
+use super::normalisation::{Normalisation, normalise};
 use crate::algebra::{Cholesky, Lu, Matrix, dot_complex};
 use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
@@ -78,10 +78,12 @@ impl Shafts {
         let found = self.followed(nearby).or_else(|| self.whole.modes(MODES).ok())?;
         let places: Vec<Complex> = found.iter().map(|own| own.s).collect();
         let (mut modes, within) = (Vec::new(), self.whole.terms());
+        let (size, leading) = Normalisation::of(&at.description);
         for (own, Pencil { matrix, slope }) in found.into_iter().zip(self.whole.pencils(&places)) {
             let eigentol_shafts::Mode { s, mut right, mut left } = own;
+            let mass = &at.linear.mass;
             let weighs =
-                normalise_by_mass(&mut right, &at.linear.mass) && normalise_by_mass(&mut left, &at.linear.mass);
+                normalise(&mut right, mass, size, leading.right) && normalise(&mut left, mass, size, leading.left);
             if !weighs {
                 return None;
             }

@@ -55,6 +55,16 @@ fn a_spinning_shaft() {
             }
             let expected = first("Omega");
             assert!((slopes.by_input[0].im / expected - 1.0).abs() < 1e-8, "{speed} {omega}: {expected}");
+            let curvature = study.mode_curvature(mode).expect("second derivatives");
+            let curvature = curvature.eigenvalue.as_ref().expect("second derivatives");
+            let second = |name: &str| numbers(&case["derivatives"][name]["second"])[k] * omega.signum();
+            let named = names(&study);
+            let own = named.iter().enumerate().map(|(j, name)| (name.as_str(), curvature.by_design[j][j].im));
+            for (name, found) in own.chain([("Omega", curvature.by_input[0][0].im)]) {
+                let scale = parameter(&file, name).min(speed.max(1.0)).powi(2);
+                let error = (found - second(name)).abs() * scale;
+                assert!(error < 1e-7 * omega.abs(), "{speed} {omega} {name}: {found} {}", second(name));
+            }
         }
     }
 }
@@ -85,6 +95,15 @@ fn internal_damping() {
             let first = numbers(&file["derivatives"][name.as_str()]["first"]);
             let expected = Complex::new(first[2 * k], first[2 * k + 1] * pair[1].signum());
             assert!((slope - expected).norm() < 1e-8 * expected.norm(), "{name}: {slope} {expected}");
+        }
+        let curvature = study.mode_curvature(mode).expect("second derivatives");
+        let curvature = curvature.eigenvalue.as_ref().expect("second derivatives");
+        for (j, name) in names(&study).iter().enumerate() {
+            let second = numbers(&file["derivatives"][name.as_str()]["second"]);
+            let (found, listed) =
+                (curvature.by_design[j][j], Complex::new(second[2 * k], second[2 * k + 1] * pair[1].signum()));
+            let error = (found - listed).norm() * parameter(&file, name).powi(2);
+            assert!(error < 1e-7 * expected.norm(), "{name}: {found} {listed}");
         }
     }
     let tolerances = study.clone().flutter_onset_tolerances(Input::new(0), 0.0, 1000.0).expect("onsets");

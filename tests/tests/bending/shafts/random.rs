@@ -3,7 +3,8 @@
 
 use std::fmt::Write;
 
-use eigentol::{Complex, DesignVariable, Input, Stability, Study};
+use eigentol::response::Vibration;
+use eigentol::{Complex, DesignVariable, Excitation, Input, Output, Stability, Study};
 use eigentol_interpreter::Interpreted;
 
 use crate::beams::compared::machine;
@@ -389,5 +390,54 @@ fn slow_motions_beside_a_fast_shaft_are_found() {
         let gives = study("force pushed: spring(on: slide[7], stiffness: -2000 N/m);");
         let stability = gives.equilibrium().expect("a state").stability;
         assert_eq!(stability, Stability::Divergent { negative: 1 }, "{length}");
+    }
+}
+
+/// A table in a file is the same as its rows in the declaration: units above and in cells, comments, quotes and expressions.
+#[test]
+fn sections_in_a_file_are_those_of_the_declaration() {
+    let study = |sections: &str, after: &str| {
+        let text = format!(
+            "mechanism Tables {{ input omega: rad/s; design wear = 0.3 mm;
+                material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+                material brass: density 8500 kg/m^3, modulus 100 GPa, poisson 0.34;
+                body rotor: shaft(along: x, up: z, sections: {sections}) spinning at omega;
+                point a: rotor at root; point b: rotor at tip; point seat_a: ground; point seat_b: ground at [380, 0, 0] mm;
+                force left: bushing(from: seat_a, to: a, stiffness: [0, 9, 8] MN/m, damping: [0, 1, 1] kN*s/m);
+                force right: bushing(from: seat_b, to: b, stiffness: [0, 7, 9] MN/m, damping: [0, 1, 2] kN*s/m); }} {after}"
+        );
+        Study::new(machine(&text)).input(Input::new(0), 400.0)
+    };
+    let rows = "[[120 mm, 40 mm, steel], [80 mm, 60 mm + wear, 20 mm, steel], [180 mm, taper(50 mm, 30 mm), brass]]";
+    let table = "length [mm]; outer [mm]; inner [mm]; material\n# steps\n120; 40; ; steel\n\n80; 60 mm + wear; 20; steel\n\
+        18 cm; taper(50 mm, 30 mm); ; brass\n";
+    let commas = "0.12 m, 40 mm, , steel\n80 mm, 60 mm + wear, 20 mm, steel\n180 mm, \"taper(50 mm, 30 mm)\", , brass";
+    let expected = study(rows, "").modes().expect("modes").modes;
+    for text in [table, commas] {
+        let found = study("\"rotor.csv\"", &format!("file \"rotor.csv\" {text:?};")).modes().expect("modes").modes;
+        for (a, b) in found.iter().zip(&expected) {
+            assert!((a.s - b.s).norm() < 1e-12 * b.s.norm(), "{} {}", a.s, b.s);
+        }
+    }
+}
+
+/// Where a peak is, the vibration is higher than on both sides of it.
+#[test]
+fn a_peak_is_higher_than_what_is_beside_it() {
+    let study = study(2, 1);
+    let vibration = Vibration::new(Output::<Interpreted>::new(0), Excitation::new(0));
+    let peaks = study.peaks(vibration, Input::new(0), 100.0, 1200.0).expect("peaks").peaks;
+    assert!(!peaks.is_empty());
+    let height = |speed: f64| {
+        let response = study.clone().input(Input::new(0), speed).forced_response().expect("a response");
+        response.harmonics[0].outputs[0].expect("an amplitude").norm()
+    };
+    for peak in &peaks {
+        let (place, top) = (peak.place.value, peak.height.value);
+        assert!((height(place) / top - 1.0).abs() < 1e-9, "{place}");
+        let [before, after] = [-1e-4, 1e-4].map(|part| height(place * (1.0 + part)));
+        // A parabola: the top is where both sides are as low.
+        let aside = 0.5e-4 * (after - before) / (2.0 * top - before - after);
+        assert!(before < top && after < top && aside.abs() < 1e-6, "{place}: {before} {top} {after}, {aside}");
     }
 }

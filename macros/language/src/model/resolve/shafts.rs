@@ -17,7 +17,7 @@ use super::expected::Expected;
 use super::placements::zero;
 use super::resolver::Resolver;
 use crate::base::dimension::Dimension;
-use crate::model::expression::Expr;
+use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{self, Line};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify::{add, divide, multiply};
@@ -86,18 +86,8 @@ impl Resolver<'_> {
             Some(value) => self.lines(value),
             None => Some([true, false, false]),
         };
-        let origin = match &shaft.placement {
-            Some(placement) if !placement.rotations.is_empty() => {
-                let message = "a shaft is not turned: `along` and `up` say how it lies";
-                self.diagnostics.error(placement.keyword, message);
-                None
-            }
-            Some(placement) => match &placement.offset {
-                Some(offset) => self.position(offset, "the place of a shaft's root"),
-                None => Some(zero()),
-            },
-            None => Some(zero()),
-        };
+        let turned = "a shaft is not turned: `along` and `up` say how it lies";
+        let origin = self.origin_of(shaft, "the place of a shaft's root", turned);
         let drag = match given.get("drag") {
             Some(value) => self.scalar_of(value, Dimension::new(-1, 1, -1), "`drag`"),
             None => Some(Expr::Number(0.0)),
@@ -145,6 +135,21 @@ impl Resolver<'_> {
             elements: elements?,
             positive,
         })
+    }
+
+    /// Where a body with stations is, which its placement moves and does not turn.
+    pub(super) fn origin_of(&mut self, term: &Term, what: &str, turned: &str) -> Option<Vector> {
+        match &term.placement {
+            Some(placement) if !placement.rotations.is_empty() => {
+                self.diagnostics.error(placement.keyword, turned);
+                None
+            }
+            Some(placement) => match &placement.offset {
+                Some(offset) => self.position(offset, what),
+                None => Some(zero()),
+            },
+            None => Some(zero()),
+        }
     }
 
     /// Whether a shaft bends, twists and stretches.

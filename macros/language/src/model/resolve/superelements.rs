@@ -11,7 +11,6 @@ use self::declared::{Declared, Share, Square};
 use super::arguments::Arguments;
 use super::beams::declared::Flexible;
 use super::bodies::{Row, SUPERELEMENT};
-use super::placements::zero;
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
@@ -90,18 +89,8 @@ impl Resolver<'_> {
     }
 
     fn superelement_of(&mut self, body: &ast::Body, term: &Term, given: &Arguments<'_>) -> Option<Declared> {
-        let origin = match &term.placement {
-            Some(placement) if !placement.rotations.is_empty() => {
-                let message = "a superelement is not turned: its directions are those of its matrices";
-                self.diagnostics.error(placement.keyword, message);
-                None
-            }
-            Some(placement) => match &placement.offset {
-                Some(offset) => self.position(offset, "the place of a superelement"),
-                None => Some(zero()),
-            },
-            None => Some(zero()),
-        };
+        let turned = "a superelement is not turned: its directions are those of its matrices";
+        let origin = self.origin_of(term, "the place of a superelement", turned);
         let held = match given.get("held") {
             None => Some(false),
             Some(value) if matches!(&value.kind, ValueKind::Name(name) if name == "inside") => Some(true),
