@@ -63,6 +63,18 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
         }
         table += "],";
     }
+    // Layers from one node share one motion: their forces add.
+    let force =
+        |layers: &Vec<Element<'_>>| layers.iter().filter_map(|layer| layer.number("axial_force").ok()).sum::<f64>();
+    let forces: Vec<f64> = rows.values().map(force).collect();
+    let tension = match forces[0] {
+        same if forces.iter().any(|other| *other != same) => {
+            notes.push("axial forces that differ from element to element are left out".to_owned());
+            String::new()
+        }
+        0.0 => String::new(),
+        same => format!(", tension: {same} N"),
+    };
     let slender = of("Shaft").iter().all(|layer| layer.fields.get("shear_effects") == Some(&Value::Bool(false)));
     let station = |element: &Element<'_>| -> Result<usize, String> {
         let node = element.node()?;
@@ -100,7 +112,7 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
 {}    gravity 9.81 m/s^2 along -z;
 
     body rotor: shaft(along: x, up: z, sections: [{table}
-    ]{slender}) spinning at speed;
+    ]{slender}{tension}) spinning at speed;
 {rest}}}\n",
         materials.declared()
     );
@@ -176,8 +188,8 @@ impl Element<'_> {
     fn left_out(&self) -> Vec<String> {
         let is_false = |field: &str| self.fields.get(field) == Some(&Value::Bool(false));
         let mut all = Vec::new();
-        if ["axial_force", "torque"].iter().any(|field| self.largest(field) != 0.0) {
-            all.push("axial forces and torques are left out".to_owned());
+        if self.largest("torque") != 0.0 {
+            all.push("torques are left out".to_owned());
         }
         if ["alpha", "beta"].iter().any(|field| self.largest(field) != 0.0) {
             all.push("proportional damping of the shaft is left out: give `lag` or `drag`".to_owned());

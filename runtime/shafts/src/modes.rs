@@ -6,7 +6,7 @@
 
 use eigentol_numerics::Complex;
 use eigentol_numerics::algebra::{Lu, Matrix, Vector, add_to, dot, dot_complex};
-use eigentol_numerics::eigenproblem::eigenvalues;
+use eigentol_numerics::eigenproblem::general::hessenberg_eigenvalues;
 
 use crate::assembly::{Assembly, At, SpanGradient};
 use crate::error::Error;
@@ -26,7 +26,7 @@ pub struct Mode {
 }
 
 /// Steps of inverse iteration before them.
-const TURNS: usize = 8;
+const TURNS: usize = 4;
 /// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
@@ -89,7 +89,9 @@ impl Assembly {
         let near: Vec<Complex> = found.iter().map(|(s, _)| *s).collect();
         let starts = found.into_iter().zip(self.pencils(&near)).map(|((s, stations), pencil)| {
             let factors = factored(&pencil).or_else(|| factored(&self.pencils(&[s * (1.0 + 1e-10)]).pop()?))?;
-            Some(turned(&pencil, &factors, s, stations))
+            let start = turned(&pencil, &factors, s, stations);
+            let next = self.step(start.clone(), pencil).filter(|(_, step)| *step < CONVERGED);
+            Some(next.map_or(start, |(mode, _)| mode))
         });
         let starts: Vec<Mode> = starts.collect::<Option<_>>().ok_or(Error::NotConverged)?;
         let (mut modes, mut lost): (Vec<Mode>, _) = (Vec::new(), f64::INFINITY);
@@ -554,11 +556,9 @@ impl Space {
     /// The approximations nearest to the shift, so many and then the wanted ones only.
     fn ritz(&self, stations: usize, count: usize, wanted: &impl Fn(Complex) -> bool) -> Result<Vec<Ritz>, Error> {
         let size = self.basis.len();
-        let small = Matrix::from_fn(size, size, |i, j| Complex::new(self.hessenberg[i][j], 0.0));
+        let mut small = Matrix::from_fn(size, size, |i, j| self.hessenberg[i][j]);
         let mut values = vec![Complex::ZERO; size];
-        if !eigenvalues(small.clone().as_flattened_mut(), &mut values) {
-            return Err(Error::NotConverged);
-        }
+        hessenberg_eigenvalues(size, small.as_flattened_mut(), &mut values).ok_or(Error::NotConverged)?;
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
         let places = values.into_iter().filter(|value| value.norm() > 0.0).enumerate();
         let of_value = |(place, value): (usize, Complex)| {

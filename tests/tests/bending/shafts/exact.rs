@@ -69,6 +69,118 @@ fn a_spinning_shaft() {
     }
 }
 
+/// Waves of a uniform shaft between simple supports under an axial force: `s`, and its derivative by the force, of the equations
+/// that a wave leaves.
+#[test]
+fn a_shaft_under_tension() {
+    let (length, bending, shear, mass, rotary) = (1.2_f64, 8350.0, 4.4e6, 5.55, 3.1e-4);
+    for (force, speed, lag, slender) in [
+        (20e3, 300.0, 0.0, true),
+        (20e3, 300.0, 2e-5, true),
+        (180e3, 0.0, 0.0, false),
+        (-40e3, 200.0, 0.0, false),
+        (0.0, 200.0, 0.0, true),
+    ] {
+        let theory = if slender { "shear: 0".to_owned() } else { format!("shear_stiffness: {shear} N") };
+        let text = format!(
+            "mechanism Tense {{
+                input omega: rad/s;
+                design tension = {force} N;
+                gravity 9.81 m/s^2 along -z;
+                body rotor: shaft(along: x, up: z, length: {length} m, stiffness: {bending} N*m^2, {theory}, tension: tension,
+                    mass_per_length: {mass} kg/m, inertia: {rotary} kg*m, lag: {lag} s) spinning at omega;
+                {SUPPORTS}
+            }}"
+        );
+        let study = study(&text, Some(speed));
+        let (modes, sensitivities) = (study.modes().expect("modes"), study.sensitivities().expect("derivatives"));
+        for (number, direction) in [(1.0, 1.0), (1.0, -1.0), (2.0, 1.0), (3.0, -1.0)] {
+            let k = number * core::f64::consts::PI / length;
+            // Of `y + i z`; `y - i z` is the other direction. The equations for `w sin kx` and a slope of `b cos kx`.
+            let determinant = |s: Complex, tension: f64| -> Complex {
+                let turned = Complex::new(0.0, -2.0 * direction * speed) * rotary * s + rotary * s * s;
+                let bends = bending * k * k * (1.0 + lag * (s - Complex::new(0.0, direction * speed)));
+                if slender {
+                    return mass * s * s + k * k * (turned + bends + tension);
+                }
+                let deflection = mass * s * s + (shear + tension) * k * k;
+                (deflection * (turned + bends + shear) - (shear * k).powi(2)) / shear
+            };
+            let by = |of: &dyn Fn(f64) -> Complex, step: f64| (of(step) - of(-step)) / (2.0 * step);
+            let mut found = 0;
+            for (mode, own) in modes.modes.iter().enumerate() {
+                let s = own.s;
+                let slope = by(&|step| determinant(s + step, force), 1e-3);
+                if (determinant(s, force) / slope).norm() > 1e-8 * s.norm() {
+                    continue;
+                }
+                found += 1;
+                let expected = -by(&|step| determinant(s, force + step), 1.0) / slope;
+                let derivative = sensitivities.modes[mode].s().expect("derivatives").by_design[0];
+                let error = (derivative - expected).norm();
+                assert!(error < 1e-7 * expected.norm(), "{force} {s}: {derivative} {expected}");
+                if speed == 0.0 {
+                    continue;
+                }
+                let second = study.mode_curvature(mode).expect("second derivatives").eigenvalue;
+                let second = second.as_ref().expect("second derivatives").by_design[0][0];
+                let at = |tension: f64| {
+                    (0..6)
+                        .fold(s, |s, _| s - determinant(s, tension) / by(&|step| determinant(s + step, tension), 1e-3))
+                };
+                let expected = (at(force + 500.0) - 2.0 * s + at(force - 500.0)) / 2.5e5;
+                assert!((second - expected).norm() < 1e-3 * expected.norm(), "{force} {s}: {second} {expected}");
+            }
+            assert!(found > 0, "{force} {number} {direction}");
+        }
+    }
+}
+
+/// The sag of a tense shaft in closed form, beside a station as well as at it, whatever the number of sections; compressed beyond
+/// Euler's load it gives way.
+#[test]
+fn a_tense_shaft_sags_less() {
+    let (length, bending, mass) = (2.0_f64, 8350.0, 5.55);
+    let text = |force: f64, rows: &[f64]| {
+        let rows: String = rows.iter().map(|row| format!("[{} m, 30 mm],", row * length)).collect();
+        format!(
+            "mechanism Tense {{
+                design tension = {force} N;
+                gravity 9.81 m/s^2 along -z;
+                material own: density {} kg/m^3, modulus {} Pa, poisson 0.3;
+                body rotor: shaft(along: x, up: z, sections: [{rows}], material: own, shear: 0, tension: tension);
+                point middle: rotor at station 1;
+                {SUPPORTS}
+                output sag = position(middle).z;
+            }}",
+            mass / (core::f64::consts::PI * 0.015_f64.powi(2)),
+            bending / (core::f64::consts::PI / 4.0 * 0.015_f64.powi(4)),
+        )
+    };
+    let load = 9.81 * mass;
+    for (force, rows) in
+        [(60e3, [0.5, 0.5].as_slice()), (60e3, &[0.5, 0.2, 0.3]), (120e3, &[0.5, 0.5]), (-15e3, &[0.5, 0.1, 0.4])]
+    {
+        let exact = |force: f64| {
+            let half = Complex::from(force / bending).sqrt() * (length / 2.0);
+            -load / force * (length * length / 8.0 - bending / force * (1.0 - half.cosh().inv().re))
+        };
+        let study = study(&text(force, rows), None);
+        let found = study.outputs().expect("outputs");
+        let sag = found.values[0];
+        assert!((sag / exact(force) - 1.0).abs() < 1e-8, "{force}: {sag} {}", exact(force));
+        let slope = (exact(force * 1.0001) - exact(force * 0.9999)) / (2e-4 * force);
+        let derivative = found.by_design[0].as_ref().expect("a derivative")[0];
+        assert!((derivative / slope - 1.0).abs() < 1e-6, "{force}: {derivative} {slope}");
+    }
+    let euler = bending * (core::f64::consts::PI / length).powi(2);
+    let stable = |share: f64| {
+        let study = study(&text(-share * euler, &[0.5, 0.5]), None);
+        study.equilibrium().expect("an equilibrium").stability == eigentol::Stability::Stable
+    };
+    assert!(stable(0.9999) && !stable(1.0001));
+}
+
 /// Material that lags and air that resists: eigenvalues, the speed of the onset, and derivatives of both.
 #[test]
 fn internal_damping() {

@@ -92,6 +92,10 @@ impl Resolver<'_> {
             Some(value) => self.scalar_of(value, Dimension::new(-1, 1, -1), "`drag`"),
             None => Some(Expr::Number(0.0)),
         };
+        let tension = match given.get("tension") {
+            Some(value) => self.scalar_of(value, Dimension::FORCE, "`tension`"),
+            None => Some(Expr::Number(0.0)),
+        };
         let material = self.material_of(name, given);
         let coefficient = match given.get("shear_coefficient") {
             Some(value) => self.scalar_of(value, Expected::ratio(), "`shear_coefficient`").map(Some),
@@ -128,6 +132,7 @@ impl Resolver<'_> {
             speed: speed?,
             lag: lag?,
             drag: drag?,
+            tension: tension?,
             rows: sections,
             bending: bending.then_some(bends),
             twists,

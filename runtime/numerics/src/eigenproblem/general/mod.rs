@@ -53,6 +53,7 @@ pub use driver::{solve as roots_of, solve_near as roots_near};
 pub use prediction::ApproximatePair;
 pub use reference::{Reference, ReferencePair};
 pub use scaled_pencil::Eigenproblem;
+pub use schur::eigenvalues as hessenberg_eigenvalues;
 pub use signs::{Growing, growing};
 
 use super::symmetric::EigenproblemError;

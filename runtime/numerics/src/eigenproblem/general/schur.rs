@@ -13,9 +13,9 @@ const ULP: f64 = f64::EPSILON;
 /// Number of steps without deflation from one exceptional shift to the next.
 const EXCEPTIONAL: usize = 10;
 
-/// Eigenvalues of an upper Hessenberg matrix, which is destroyed; conjugate pairs are adjacent, the one with positive
+/// Eigenvalues of an upper Hessenberg matrix, row by row, which is destroyed; conjugate pairs are adjacent, the one with positive
 /// imaginary part first. Returns the number of steps; `None` if the iteration did not converge.
-pub(crate) fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> Option<usize> {
+pub fn eigenvalues(n: usize, h: &mut [f64], values: &mut [Complex64]) -> Option<usize> {
     let small = negligible(n, h);
     let most_steps = 30 * n.max(10);
     let mut end = n;

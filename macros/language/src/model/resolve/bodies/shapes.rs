@@ -147,6 +147,7 @@ pub(in crate::model::resolve) const SHAFT: Row = Row::new(
     "shear",
     "lag",
     "drag",
+    "tension",
     "elements",
 ])
 .refusing(&[

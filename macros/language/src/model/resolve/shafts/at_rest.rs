@@ -8,7 +8,7 @@ use proc_macro2::Ident;
 
 use super::super::resolver::Resolver;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{ForceLaw, Line, Span};
+use crate::model::mechanism::{ForceLaw, Line, NUMBERS, Span};
 use crate::model::simplify::{add, divide, multiply, negate, power_integer, subtract};
 
 /// A complex expression.
@@ -16,6 +16,11 @@ use crate::model::simplify::{add, divide, multiply, negate, power_integer, subtr
 struct Complex(Expr, Expr);
 
 const ZERO: Expr = Expr::Number(0.0);
+/// Terms of the series in the tension: errors of `1e-9` up to twice the square below.
+const TERMS: usize = 10;
+/// The most that tension times the square of a step's length may be of the stiffness against bending.
+const FAST: f64 = 8.0;
+const MOST_STEPS: usize = 64;
 
 fn real(a: Expr) -> Complex {
     Complex(a, ZERO)
@@ -94,17 +99,20 @@ impl Resolver<'_> {
             let [[a, b], [c, d]] = planes;
             [a, b, c, d]
         };
-        let Bent { by_moment: [w_b, b_b], by_force: [w_s, b_s], sag: [w_q, b_q], load, turned, length } =
-            self.given_way(name, span);
+        let Bent { by_slope, by_moment, by_force, sag, load } = self.given_way(name, span);
         let weight = &Complex(weight[0].clone(), weight[1].clone());
-        // Deflection and slope of the last end beside those of a rigid shaft on the first, less those under its weight, by the
-        // force and the moment there.
-        let sagged = |x: &Complex| x.times(weight);
-        let d = [
-            w_last.less(&w_first).less(&b_first.scaled(&length)).less(&sagged(&w_q)),
-            b_last.less(&b_first).less(&sagged(&b_q)),
-        ];
-        let give = [[w_s.plus(&w_b.scaled(&length)), w_b], [b_s.plus(&b_b.scaled(&length)), b_b]];
+        let [w_t, b_t, m_t] = &by_slope;
+        let [w_b, b_b, m_b] = &by_moment;
+        let [w_s, b_s, m_s] = &by_force;
+        let [w_q, b_q, m_q] = sag.each_ref().map(|x| x.times(weight));
+        // Deflection and slope of the last end beside those without force and moment there but that of tension, by the force and
+        // the moment that are left.
+        let d =
+            [w_last.less(&w_first).less(&b_first.times(w_t)).less(&w_q), b_last.less(&b_first.times(b_t)).less(&b_q)];
+        let by_last = m_b.inverse();
+        let arm = m_s.times(&by_last);
+        let give =
+            [[w_s.less(&w_b.times(&arm)), w_b.times(&by_last)], [b_s.less(&b_b.times(&arm)), b_b.times(&by_last)]];
         let determinant = give[0][0].times(&give[1][1]).less(&give[0][1].times(&give[1][0]));
         let inverse = determinant.inverse();
         let entry = |x: &Complex, sign: f64| x.times(&inverse).scaled(&Expr::Number(sign));
@@ -114,18 +122,19 @@ impl Resolver<'_> {
             row.map(|Complex(re, im)| Complex(self.shared_of_shaft(name, re), self.shared_of_shaft(name, im)))
         });
         let [force, moment] = [0, 1].map(|k| stiffness[k][0].times(&d[0]).plus(&stiffness[k][1].times(&d[1])));
-        let loads = [weight.scaled(&load), weight.scaled(&turned)];
+        let loads = [weight.scaled(&load), m_q];
         if stiffness.iter().flatten().all(|x| x.1 == ZERO) {
             let product =
                 |a: &Complex, b: &Complex| add(multiply(a.0.clone(), b.0.clone()), multiply(a.1.clone(), b.1.clone()));
             let twice = add(product(&d[0], &force), product(&d[1], &moment));
             let elastic = multiply(Expr::Number(0.5), twice);
+            let tense = product(&b_first.times(m_t), &d[1].plus(&b_first.times(b_t).scaled(&Expr::Number(0.5))));
             let of_load = subtract(product(&loads[1], &b_last), product(&loads[0], &w_last));
-            return vec![ForceLaw::Potential { energy: add(elastic, of_load) }];
+            return vec![ForceLaw::Potential { energy: add(add(elastic, tense), of_load) }];
         }
         // What the shaft does to its ends, the opposite of what moves them.
-        let at_first = [force.clone(), moment.plus(&force.scaled(&length))];
-        let at_last = [loads[0].less(&force), real(ZERO).less(&moment).less(&loads[1])];
+        let at_first = [force.clone(), moment.less(&force.times(m_s)).times(&by_last)];
+        let at_last = [loads[0].less(&force), real(ZERO).less(&moment).less(&b_first.times(m_t)).less(&loads[1])];
         let mut laws = Vec::new();
         for (end, [force, moment]) in [at_first, at_last].into_iter().enumerate() {
             let values = [force.0, moment.0, force.1, moment.1];
@@ -136,80 +145,125 @@ impl Resolver<'_> {
         laws
     }
 
+    /// Section after section, each in as many steps as keep the series of its tension short.
     fn given_way(&mut self, name: &Ident, span: &Span) -> Bent {
+        let none = || real(ZERO);
+        let one = || real(Expr::Number(1.0));
         let mut so_far = Bent {
-            by_moment: [real(ZERO), real(ZERO)],
-            by_force: [real(ZERO), real(ZERO)],
-            sag: [real(ZERO), real(ZERO)],
+            by_slope: [none(), one(), none()],
+            by_moment: [none(), none(), one()],
+            by_force: [none(), none(), none()],
+            sag: [none(), none(), none()],
             load: ZERO,
-            turned: ZERO,
-            length: ZERO,
         };
         for section in &span.sections {
-            let [length, bending, shear, mass, _, lag, ..] = section;
-            // Of `y + i z` the stiffness is `E I (1 - i lag speed)`.
-            let turned = negate(multiply(lag.clone(), span.speed.clone()));
-            let stiffness = Complex(bending.clone(), multiply(bending.clone(), turned));
-            let gives = stiffness.inverse();
-            let shears = match span.line {
-                Line::Slender => ZERO,
-                _ => divide(Expr::Number(1.0), shear.clone()),
-            };
-            let power = |n: i32, below: f64| divide(power_integer(length.clone(), n), Expr::Number(below));
-            let product = |a: &Expr, b: &Expr| multiply(a.clone(), b.clone());
-            let sum = |terms: [Expr; 3]| terms.into_iter().fold(ZERO, add);
-            let Bent { by_moment, by_force, sag, load, turned, length: before } = &so_far;
-            // Integrals of the moment once and twice, by moment and force at the first end and by the weight before.
-            let once = [
-                length.clone(),
-                negate(add(product(before, length), power(2, 2.0))),
-                sum([product(turned, length), product(load, &power(2, 2.0)), product(mass, &power(3, 6.0))]),
-            ];
-            let twice = [
-                power(2, 2.0),
-                negate(add(product(before, &power(2, 2.0)), power(3, 6.0))),
-                sum([product(turned, &power(2, 2.0)), product(load, &power(3, 6.0)), product(mass, &power(4, 24.0))]),
-            ];
-            let sheared = [
-                ZERO,
-                product(length, &shears),
-                negate(multiply(add(product(load, length), product(mass, &power(2, 2.0))), shears)),
-            ];
-            let parts = [by_moment, by_force, sag];
-            let mut next = Vec::new();
-            for (k, [deflection, slope]) in parts.into_iter().enumerate() {
-                let moved = deflection.plus(&slope.scaled(length)).plus(&gives.scaled(&twice[k]));
-                let pair = [moved.plus(&real(sheared[k].clone())), slope.plus(&gives.scaled(&once[k]))];
-                next.push(pair);
+            let steps = self.steps_under_tension(section);
+            let piece = Piece::new(span, section, steps);
+            for _ in 0..steps {
+                let Bent { by_slope, by_moment, by_force, sag, load } = &so_far;
+                let next = [
+                    piece.moved(by_slope, [&ZERO, &ZERO]),
+                    piece.moved(by_moment, [&ZERO, &ZERO]),
+                    piece.moved(by_force, [&Expr::Number(1.0), &ZERO]),
+                    piece.moved(sag, [&negate(load.clone()), &piece.mass]),
+                ];
+                let load = add(load.clone(), multiply(piece.mass.clone(), piece.length.clone()));
+                let mut shared = |x: Expr| self.shared_of_shaft(name, x);
+                let [by_slope, by_moment, by_force, sag] =
+                    next.map(|column| column.map(|Complex(re, im)| Complex(shared(re), shared(im))));
+                so_far = Bent { by_slope, by_moment, by_force, sag, load: self.shared_of_shaft(name, load) };
             }
-            let more = product(mass, length);
-            let turned = sum([turned.clone(), product(load, length), product(mass, &power(2, 2.0))]);
-            let (load, length) = (add(load.clone(), more), add(before.clone(), length.clone()));
-            let mut shared = |x: Expr| self.shared_of_shaft(name, x);
-            let mut pairs = next.into_iter().map(|pair| pair.map(|Complex(re, im)| Complex(shared(re), shared(im))));
-            let mut pair = || pairs.next().expect("three pairs");
-            let (by_moment, by_force, sag) = (pair(), pair(), pair());
-            drop(pairs);
-            so_far = Bent {
-                by_moment,
-                by_force,
-                sag,
-                load: self.shared_of_shaft(name, load),
-                turned: self.shared_of_shaft(name, turned),
-                length: self.shared_of_shaft(name, length),
-            };
         }
         so_far
     }
+
+    fn steps_under_tension(&self, [length, bending, _, _, _, _, tension, _]: &[Expr; NUMBERS]) -> usize {
+        let [length, bending, tension] = [length, bending, tension].map(|x| self.nominal_of(x));
+        let steps = (tension.abs() * length * length / (bending * FAST)).sqrt().ceil();
+        if steps.is_finite() { (steps as usize).clamp(1, MOST_STEPS) } else { 1 }
+    }
 }
 
-/// Deflection and slope of the last end, beside those of a rigid shaft, by moment and force at the first end and by a unit of
-/// gravity; the mass before the last end, its first moment about it, and the length.
-struct Bent {
-    by_moment: [Complex; 2],
-    by_force: [Complex; 2],
-    sag: [Complex; 2],
-    load: Expr,
-    turned: Expr,
+/// A piece of a section: `E I b' = m`, `m' = -r (f - T b)` and `w' = r b + f / (S + T)` with the transverse force `f`, whose share
+/// `r = S / (S + T)` is shear.
+struct Piece {
     length: Expr,
+    mass: Expr,
+    /// `1 / (E I)`, of `y + i z`.
+    gives: Complex,
+    /// `r`, and `1 / (S + T)`.
+    shears: [Expr; 2],
+    /// `T r`.
+    tension: Expr,
+    /// Length to the power `n` times the sum of all `(T r / (E I) length^2)^k / (n + 2 k)!`, for each `n`: without tension what
+    /// integrals of one are.
+    powers: [Complex; 5],
+}
+
+impl Piece {
+    fn new(span: &Span, [length, bending, shear, mass, _, lag, tension, _]: &[Expr; NUMBERS], steps: usize) -> Self {
+        let length = divide(length.clone(), Expr::Number(steps as f64));
+        // Of `y + i z` the stiffness is `E I (1 - i lag speed)`.
+        let turned = negate(multiply(lag.clone(), span.speed.clone()));
+        let gives = Complex(bending.clone(), multiply(bending.clone(), turned)).inverse();
+        let shears = match span.line {
+            Line::Slender => [Expr::Number(1.0), ZERO],
+            _ if *tension == ZERO => [Expr::Number(1.0), divide(Expr::Number(1.0), shear.clone())],
+            _ => {
+                let whole = add(shear.clone(), tension.clone());
+                [divide(shear.clone(), whole.clone()), divide(Expr::Number(1.0), whole)]
+            }
+        };
+        let tension = multiply(tension.clone(), shears[0].clone());
+        let square = gives.scaled(&multiply(tension.clone(), power_integer(length.clone(), 2)));
+        let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
+        let constant = |n: usize| real(Expr::Number(1.0 / factorial(n)));
+        // The series of the last two, from which those before them follow.
+        let last = |n: usize| {
+            let terms = if tension == ZERO { 0 } else { TERMS };
+            (0..terms).rev().fold(constant(n + 2 * terms), |sum, k| constant(n + 2 * k).plus(&sum.times(&square)))
+        };
+        let [fourth, third] = [last(4), last(3)];
+        let second = constant(2).plus(&square.times(&fourth));
+        let first = constant(1).plus(&square.times(&third));
+        let zeroth = constant(0).plus(&square.times(&second));
+        let mut n = 0;
+        let powers = [zeroth, first, second, third, fourth].map(|series| {
+            n += 1;
+            series.scaled(&power_integer(length.clone(), n - 1))
+        });
+        Self { length, mass: mass.clone(), gives, shears, tension, powers }
+    }
+
+    /// Deflection, slope and moment at its end from those at its beginning, with the transverse force there and the load on it.
+    fn moved(&self, [w, b, m]: &[Complex; 3], [force, load]: [&Expr; 2]) -> [Complex; 3] {
+        let Self { length, gives, shears: [share, shears], tension, powers: [p0, p1, p2, p3, p4], .. } = self;
+        // Integrals of the transverse force that is shear.
+        let pushed = |by: &Complex, more: &Complex| by.scaled(force).less(&more.scaled(load)).scaled(share);
+        let bent = |b0: &Complex, m0: &Complex, by: &Complex, more: &Complex| {
+            b.times(b0).plus(&gives.times(&m.times(m0).less(&pushed(by, more))))
+        };
+        let sheared = multiply(
+            subtract(
+                multiply(force.clone(), length.clone()),
+                multiply(load.clone(), divide(power_integer(length.clone(), 2), Expr::Number(2.0))),
+            ),
+            shears.clone(),
+        );
+        [
+            w.plus(&bent(p1, p2, p3, p4).scaled(share)).plus(&real(sheared)),
+            bent(p0, p1, p2, p3),
+            b.times(p1).scaled(tension).plus(&m.times(p0)).less(&pushed(p1, p2)),
+        ]
+    }
+}
+
+/// Deflection, slope and moment at the last end, by a slope, a moment and a force at the first and by a unit of gravity; the mass
+/// before it.
+struct Bent {
+    by_slope: [Complex; 3],
+    by_moment: [Complex; 3],
+    by_force: [Complex; 3],
+    sag: [Complex; 3],
+    load: Expr,
 }

@@ -31,6 +31,10 @@ const MOTIONS: [(&str, usize, bool); 6] = [
     ("twist", 0, true),
 ];
 
+/// The most of the length between two stations times the root of tension over stiffness against bending: what one end does to the
+/// other falls with its exponential.
+const TENSE: f64 = 8.0;
+
 /// Where a station is.
 pub(in crate::model::resolve) struct Standing<'a> {
     /// Of the body with stations.
@@ -165,12 +169,12 @@ impl Resolver<'_> {
     ) -> Vec<Span> {
         let between = || declared.between(ends[0].place, ends[1].place);
         let zero = || Expr::Number(0.0);
-        let (lag, drag) = (&declared.lag, &declared.drag);
+        let lag = &declared.lag;
         let mut lines: Vec<(Line, Motions, Vec<Numbers>)> = Vec::new();
-        let numbers = |of: &dyn Fn(&Section) -> [Expr; 5]| -> Vec<Numbers> {
+        let numbers = |of: &dyn Fn(&Section) -> [Expr; 6]| -> Vec<Numbers> {
             let row = |own: &Section| {
-                let [stiffness, shear, mass, rotary, drag] = of(own);
-                [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), zero(), drag]
+                let [stiffness, shear, mass, rotary, tension, drag] = of(own);
+                [own.length.clone(), stiffness, shear, mass, rotary, lag.clone(), tension, drag]
             };
             between().map(row).collect()
         };
@@ -178,22 +182,33 @@ impl Resolver<'_> {
             let of = |own: &Section| {
                 let [bending, shear, mass, rotary] =
                     [&own.bending, &own.shear, &own.mass, &own.rotary].map(Clone::clone);
-                [bending, shear, mass, rotary, drag.clone()]
+                [bending, shear, mass, rotary, declared.tension.clone(), declared.drag.clone()]
             };
             lines.push((line, &[(0, 1.0), (3, 1.0), (1, 1.0), (2, -1.0)], numbers(&of)));
         }
         if declared.stretches {
-            let of = |own: &Section| [own.stretch.clone(), zero(), own.mass.clone(), zero(), zero()];
+            let of = |own: &Section| [own.stretch.clone(), zero(), own.mass.clone(), zero(), zero(), zero()];
             lines.push((Line::Bar, &[(4, 1.0)], numbers(&of)));
         }
         if declared.twists {
-            let of = |own: &Section| [own.twist.clone(), zero(), own.polar.clone(), zero(), zero()];
+            let of = |own: &Section| [own.twist.clone(), zero(), own.polar.clone(), zero(), zero(), zero()];
             lines.push((Line::Bar, &[(5, 1.0)], numbers(&of)));
         }
         let nominal = |own: &Section| self.nominal_of(&own.length);
         let total: f64 = declared.between(0, declared.last()).map(nominal).sum();
         let pieces = |own: &Section| ((declared.elements as f64 * nominal(own) / total - 1e-9).ceil() as usize).max(1);
         let elements: Vec<usize> = between().map(pieces).collect();
+        let [first, last] = ends.map(|end| end.place);
+        let stiffened = |own: &Section| {
+            let [tension, bending] = [&declared.tension, &own.bending].map(|x| self.nominal_of(x));
+            nominal(own) * (tension / bending).max(0.0).sqrt()
+        };
+        if declared.bending.is_some() && between().map(stiffened).sum::<f64>() > TENSE {
+            let message =
+                format!("`{name}` bends too little under its tension between its stations {first} and {last}");
+            let help = "divide the sections between them into more rows, with a point at a station between: `point p: rotor at station 1`";
+            self.diagnostics.error_with_help(name, message, help);
+        }
         let mut spans = Vec::new();
         for (line, motions, sections) in lines {
             // Each number is computed once for everything that uses it.
