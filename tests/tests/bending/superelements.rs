@@ -7,7 +7,7 @@ use eigentol::{Complex, DesignVariable, Input, Study};
 use nalgebra::{DMatrix, DVector};
 
 use self::frame::{Frame, file};
-use crate::beams::compared::machine;
+use crate::beams::compared::{self, machine};
 
 /// What holds the stations: springs of the last, along the axes; masses on the first.
 const SPRING: [f64; 3] = [3e6, 2e6, 4e6];
@@ -247,5 +247,174 @@ fn a_pedestal_within_matrices_is_one_of_bodies() {
     });
     for (a, b) in a.iter().zip(&b) {
         assert!((a - b).norm() < 1e-9 * b.norm(), "{a} {b}");
+    }
+}
+
+/// Nodes on a hub that turns, with mass and springs between them, are particles on slides with the same energy: the state, modes and
+/// derivatives, of whatever mass the nodes are made and wherever the axis is. A disk on one of them moves along.
+#[test]
+fn nodes_that_turn_are_particles_that_turn() {
+    let places = [[0.3, 0.05, 0.1], [0.2, -0.2, 0.0], [0.45, 0.1, -0.05]];
+    let masses = [0.8, 1.7, 0.5];
+    let rows: Vec<usize> = (0..9).map(|k| 6 * (k / 3) + k % 3).collect();
+    let mut seed = 7.0_f64;
+    let mut random = || {
+        seed = (seed * 16807.0) % 2147483647.0;
+        seed / 2147483647.0 - 0.5
+    };
+    let root = DMatrix::from_fn(9, 9, |_, _| random());
+    let elastic = (&root * root.transpose() + DMatrix::identity(9, 9) * 0.2) * 4e4;
+    let spread = |small: &DMatrix<f64>| {
+        let mut all = DMatrix::zeros(18, 18);
+        (0..9).for_each(|i| (0..9).for_each(|j| all[(rows[i], rows[j])] = small[(i, j)]));
+        all
+    };
+    let heavy = DMatrix::from_fn(9, 9, |i, j| if i == j { masses[i / 3] } else { 0.0 });
+    let place = |k: usize| format!("[{}, {}, {}] m", places[k][0], places[k][1], places[k][2]);
+    let matrices = [
+        format!(
+            "body part: superelement(on: hub, mass: [[\"m.mtx\", weight]], stiffness: \"k.mtx\", held: inside,
+                stations: [{}, {}, {}]);
+            joint welded: fixed from part at station 2 to wheel;
+            point at: part at station 2; output out = distance(at, home);",
+            place(0),
+            place(1),
+            place(2)
+        ),
+        file("m.mtx", &spread(&heavy)) + &file("k.mtx", &spread(&elastic)),
+    ];
+    let mut bodies = String::new();
+    for k in 0..3 {
+        bodies += &format!(
+            "body xs{k}: massless; body ys{k}: massless; body p{k}: point(mass: weight * {} kg);
+            joint x{k}: prismatic(x) from hub to xs{k} at {}; joint y{k}: prismatic(y) from xs{k} to ys{k};
+            joint z{k}: prismatic(z) from ys{k} to p{k};",
+            masses[k],
+            place(k)
+        );
+    }
+    let name = |k: usize| format!("{}{}", ["x", "y", "z"][k % 3], k / 3);
+    let terms = (0..9).flat_map(|i| (0..9).map(move |j| (i, j)));
+    let energy: Vec<String> =
+        terms.map(|(i, j)| format!("{} N/m * {} * {}", 0.5 * elastic[(i, j)], name(i), name(j))).collect();
+    bodies += &format!(
+        "force held: potential(energy: {}); joint welded: fixed from p1 to wheel;
+        point at: p1 at [0, 0, 0]; output out = distance(at, home);",
+        energy.join(" + ")
+    );
+    for (axis, gravity) in [("z", "-z"), ("[0.6, 0, 0.8]", "[0.6, 0, 0.8]")] {
+        let [a, b] = [&matrices, &[bodies.clone(), String::new()]].map(|[inside, after]| {
+            let text = format!(
+                "mechanism Turning {{
+                    input omega: rad/s; design weight = 1.2; gravity 9.81 m/s^2 along {gravity};
+                    body hub: massless; point home: hub at [0, 0, 0]; joint drive: revolute({axis}) from ground to hub at [0.05, 0.02, 0] m, driven at omega;
+                    body wheel: rigid(mass: 2 kg, inertia: [0.01, 0.02, 0.025] kg*m^2);
+                    {inside}
+                }} {after}"
+            );
+            Study::new(machine(&text)).input(Input::new(0), 60.0)
+        });
+        let [found, expected] = [&a, &b].map(|study| study.outputs().expect("outputs"));
+        assert!((found.values[0] - expected.values[0]).abs() < 1e-12, "{} {}", found.values[0], expected.values[0]);
+        let modes = [&a, &b].map(|study| study.modes().expect("modes").modes);
+        let slopes = [&a, &b].map(|study| study.sensitivities().expect("derivatives").modes);
+        for k in 0..9 {
+            let [own, other] = [&modes[0][k], &modes[1][k]];
+            assert!((own.s - other.s).norm() < 1e-10 * other.s.norm(), "{} {}", own.s, other.s);
+            let [own, other] = [&slopes[0][k], &slopes[1][k]].map(|mode| mode.s().expect("derivatives"));
+            let pairs = [(own.by_input[0], other.by_input[0]), (own.by_design[0], other.by_design[0])];
+            for (own, other) in pairs {
+                assert!((own - other).norm() < 1e-8 * (1.0 + other.norm()), "{own} {other}");
+            }
+        }
+    }
+}
+
+/// A beam of finite elements that turns, stiffened by the centrifugal forces of itself and of a body at its tip, with matrices given
+/// for all of it: frequencies and their derivatives by the speed, in seventy digits.
+#[test]
+fn a_turning_beam_of_finite_elements() {
+    const COUNT: usize = 24;
+    let truth = compared::truth(include_str!("../../truth/flexible/F2_rotating_tip_mass.json"));
+    for case in truth["cases"].as_array().expect("cases").iter().take(2) {
+        let of = |name: &str| case["parameters"][name].as_f64().expect("a number");
+        let [length, hub, speed, bending, line, tip, turns] = ["L", "R", "Omega", "EI", "rhoA", "m", "J"].map(of);
+        let flap = case["motion"] == "flap";
+        let h = length / COUNT as f64;
+        let mut all = [(); 3].map(|()| DMatrix::<f64>::zeros(2 * COUNT, 2 * COUNT));
+        for element in 0..COUNT {
+            // Gauss's points of order seven on the element.
+            for (x, weight) in [
+                (-0.861_136_311_594_052_6, 0.347_854_845_137_453_8),
+                (-0.339_981_043_584_856_3, 0.652_145_154_862_546_2),
+                (0.339_981_043_584_856_3, 0.652_145_154_862_546_2),
+                (0.861_136_311_594_052_6, 0.347_854_845_137_453_8),
+            ] {
+                let (t, weight): (f64, f64) = (0.5 + 0.5 * x, 0.5 * h * weight);
+                let shape = [
+                    1.0 - 3.0 * t * t + 2.0 * t.powi(3),
+                    h * (t - 2.0 * t * t + t.powi(3)),
+                    3.0 * t * t - 2.0 * t.powi(3),
+                    h * (t.powi(3) - t * t),
+                ];
+                let slope =
+                    [6.0 * (t * t - t) / h, 1.0 - 4.0 * t + 3.0 * t * t, 6.0 * (t - t * t) / h, 3.0 * t * t - 2.0 * t];
+                let curvature =
+                    [12.0 * t - 6.0, h * (6.0 * t - 4.0), 6.0 - 12.0 * t, h * (6.0 * t - 2.0)].map(|c| c / (h * h));
+                let place = (element as f64 + t) * h;
+                let tension =
+                    line * (hub * (length - place) + 0.5 * (length * length - place * place)) + tip * (hub + length);
+                // The tip's rows come first, the root has none.
+                let row = |k: usize| (2 * (element + k / 2)).checked_sub(2).map(|at| (at + 2) % (2 * COUNT) + k % 2);
+                for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+                    let (Some(row), Some(column)) = (row(i), row(j)) else { continue };
+                    for (matrix, factor, of) in [(0, line, shape), (1, bending, curvature), (2, tension, slope)] {
+                        all[matrix][(row, column)] += weight * factor * of[i] * of[j];
+                    }
+                }
+            }
+        }
+        // Deflection along z and turns about -y, or along y and about z.
+        let rows: Vec<usize> = (0..2 * COUNT)
+            .map(|k| match k {
+                0 => 1 + usize::from(flap),
+                1 => 5 - usize::from(flap),
+                _ => k + 4,
+            })
+            .collect();
+        let spread = |small: &DMatrix<f64>| {
+            let mut spread = DMatrix::zeros(2 * COUNT + 4, 2 * COUNT + 4);
+            let sign = |k: usize| if k == 1 && flap { -1.0 } else { 1.0 };
+            for (i, j) in (0..2 * COUNT).flat_map(|i| (0..2 * COUNT).map(move |j| (i, j))) {
+                spread[(rows[i], rows[j])] = sign(i) * sign(j) * small[(i, j)];
+            }
+            spread
+        };
+        let softening = if flap { "" } else { ", [\"m.mtx\", -omega^2]" };
+        let inertia = if flap { [0.5, 1.0, 0.5] } else { [0.5, 0.5, 1.0] }.map(|part| part * turns);
+        let text = format!(
+            "mechanism Blade {{
+                input omega: rad/s;
+                body hub: massless; joint drive: revolute(z) from ground to hub, driven at omega;
+                body blade: superelement(on: hub, mass: \"m.mtx\", gyroscopic: [[\"none.mtx\", omega]], held: inside,
+                    stiffness: [\"k.mtx\", [\"tension.mtx\", omega^2]{softening}], stations: [[{}, 0, 0] m]);
+                body tip: rigid(mass: {tip} kg, inertia: {inertia:?} kg*m^2);
+                joint welded: fixed from blade at station 1 to tip;
+            }} {}{}{}{}",
+            hub + length,
+            file("m.mtx", &spread(&all[0])),
+            file("k.mtx", &spread(&all[1])),
+            file("tension.mtx", &spread(&all[2])),
+            file("none.mtx", &DMatrix::zeros(2 * COUNT + 4, 2 * COUNT + 4)),
+        );
+        let study = Study::new(machine(&text)).input(Input::new(0), speed);
+        let (modes, slopes) = (study.modes().expect("modes").modes, study.sensitivities().expect("derivatives").modes);
+        let expected = compared::numbers(&case["frequencies"]);
+        let by_speed = compared::numbers(&case["derivatives"]["Omega"]["first"]);
+        for k in 0..3 {
+            assert!((modes[k].s.im / expected[k] - 1.0).abs() < 5e-6, "{} {}", modes[k].s, expected[k]);
+            let slope = slopes[k].s().expect("derivatives").by_input[0].im;
+            assert!((slope / by_speed[k] - 1.0).abs() < 1e-5, "{slope} {}", by_speed[k]);
+        }
     }
 }

@@ -4,6 +4,7 @@
 mod checks;
 pub(super) mod declared;
 mod laws;
+mod spun;
 
 use std::rc::Rc;
 
@@ -22,6 +23,9 @@ use crate::syntax::ast::{self, Term, Value, ValueKind};
 
 /// Most rows: each two of them are a term in the equations.
 const MOST_ROWS: usize = 256;
+
+/// What a stiffness that grows with the square of a speed is multiplied by.
+const SQUARE: Dimension = Dimension::new(0, 0, -2);
 
 /// What a matrix of a superelement does.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -45,7 +49,10 @@ impl Role {
     fn takes(self, factor: Dimension) -> (bool, &'static str) {
         let (more, words): (&[Dimension], _) = match self {
             Self::Mass => (&[], "of mass is multiplied by a plain number"),
-            Self::Stiffness => (&[], "of stiffness is multiplied by a plain number"),
+            Self::Stiffness => (
+                &[SQUARE],
+                "of stiffness is multiplied by a plain number, one at 1 rad/s by the square of a speed",
+            ),
             Self::Damping => (
                 &[Dimension::TIME, Dimension::RATE],
                 "is damping by a plain number, or one of stiffness by a time, or one of mass by 1/s",
@@ -76,8 +83,8 @@ impl Resolver<'_> {
         }
         if let Some(speed) = &body.spinning {
             let message = "the spinning of a superelement is in its matrices";
-            let help =
-                "write `gyroscopic: [[\"wheel_gyroscopic.mtx\", omega]]` for a round part in axes that do not turn";
+            let help = "write `gyroscopic: [[\"wheel_gyroscopic.mtx\", omega]]` for a round part in axes that do not turn, \
+                        `on: hub` for a part in axes that turn with a driven body";
             self.diagnostics.error_with_help(speed.extent, message, help);
         }
         let arguments = self.arguments(&term.shape, &SIGNATURE);
@@ -101,6 +108,17 @@ impl Resolver<'_> {
                 None
             }
         };
+        let base = match given.get("on") {
+            None => Some(None),
+            Some(value) => match &value.kind {
+                ValueKind::Name(name) => self.frame(name).map(|frame| Some((frame, value.extent))),
+                _ => {
+                    let message = "a superelement stands `on` a body: write its name, or leave it out for the ground";
+                    self.diagnostics.error(value.extent, message);
+                    None
+                }
+            },
+        };
         let stations = given.get("stations").and_then(|value| self.places_of_stations(value));
         let shares = Role::ALL
             .map(|(name, role)| given.get(name).map_or_else(|| Some(Vec::new()), |value| self.shares(value, role)));
@@ -113,7 +131,7 @@ impl Resolver<'_> {
         if shares[0].is_empty() || shares[1].is_empty() {
             return None;
         }
-        let declared = Declared::new(stations, shares);
+        let declared = Declared::new(base?, stations, shares);
         let is_possible = self.check_superelement(&body.name, &declared, &at, held);
         is_possible.then_some(declared)
     }
@@ -143,12 +161,13 @@ impl Resolver<'_> {
         match &value.kind {
             ValueKind::File(name) => {
                 let matrix = self.matrix_in_file(value, name, role)?;
-                Some(vec![Share { factor: Expr::Number(1.0), matrix }])
+                Some(vec![Share { factor: Expr::Number(1.0), matrix, grows: false }])
             }
             ValueKind::Vector(parts, None) if is_pair(parts) => {
                 let factor = self.factor_of_matrix(&parts[1], role);
                 let [share] = <[Share; 1]>::try_from(self.shares(&parts[0], role)?).ok()?;
-                Some(vec![Share { factor: factor?, ..share }])
+                let (factor, grows) = factor?;
+                Some(vec![Share { factor, grows, ..share }])
             }
             ValueKind::Vector(parts, None) if !parts.is_empty() => {
                 let each: Vec<Option<Vec<Share>>> = parts.iter().map(|part| self.shares(part, role)).collect();
@@ -173,14 +192,15 @@ impl Resolver<'_> {
         }
     }
 
-    fn factor_of_matrix(&mut self, value: &Value, role: Role) -> Option<Expr> {
+    /// A factor, and whether it is the square of a speed.
+    fn factor_of_matrix(&mut self, value: &Value, role: Role) -> Option<(Expr, bool)> {
         let (factor, quantity) = self.scalar(value, ValueContext::Parameter)?;
         let (is_right, words) = role.takes(quantity.dimension());
         if !is_right {
             let message = format!("a matrix {words}, this is {}", quantity.dimension().describe());
             self.diagnostics.error(value.extent, message);
         }
-        is_right.then_some(factor)
+        is_right.then_some((factor, quantity.dimension() == SQUARE))
     }
 
     fn matrix_in_file(&mut self, at: &Value, name: &str, role: Role) -> Option<Rc<Square>> {

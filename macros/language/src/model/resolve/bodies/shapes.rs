@@ -118,7 +118,7 @@ pub(in crate::model::resolve) const SUPERELEMENT: Row = Row::new(
     "superelement(mass: \"casing_mass.mtx\", stiffness: \"casing_stiffness.mtx\", stations: [[0, 0, 0], [0.4 m, 0, 0]])",
     |_| None,
 )
-.optional(&["damping", "gyroscopic", "held"])
+.optional(&["damping", "gyroscopic", "held", "on"])
 .refusing(&[("file", "`eigentol import` makes matrices and a declaration of a file of another program")]);
 
 /// What a shaft takes; nothing reads it as a shape either.

@@ -42,8 +42,9 @@ pub(in crate::model::resolve) struct Standing<'a> {
     pub(in crate::model::resolve) place: usize,
     /// How it is counted in names.
     pub(in crate::model::resolve) number: usize,
+    pub(in crate::model::resolve) base: Frame,
     pub(in crate::model::resolve) body: BodyId,
-    /// In the ground.
+    /// In the base.
     pub(in crate::model::resolve) offset: Vector,
 }
 
@@ -109,7 +110,7 @@ impl Resolver<'_> {
         let arm = declared.between(0, place).fold(Expr::Number(0.0), |arm, section| add(arm, section.length.clone()));
         let along = &declared.axes[0];
         let offset = std::array::from_fn(|k| add(declared.origin[k].clone(), multiply(arm.clone(), along[k].clone())));
-        let standing = Standing { name, place, number: place, body, offset };
+        let standing = Standing { name, place, number: place, base: Frame::Ground, body, offset };
         self.station_with(standing, motions, bodies, joints)
     }
 
@@ -121,7 +122,7 @@ impl Resolver<'_> {
         bodies: &[Body],
         joints: &mut Vec<Joint>,
     ) -> ShaftStation {
-        let Standing { name, place, number, body, offset } = standing;
+        let Standing { name, place, number, base, body, offset } = standing;
         let joint = JointId::new(joints.len());
         let mut coordinates = [None; 6];
         let mut steps = Vec::new();
@@ -148,7 +149,7 @@ impl Resolver<'_> {
             word: "station",
             closing: None,
             steps,
-            from: Frame::Ground,
+            from: base,
             to: Frame::Body(body),
             from_placement: Placement { offset, rotations: Vec::new() },
             to_placement: unplaced(),

@@ -70,7 +70,10 @@ impl Resolver<'_> {
 
     fn at_nominal(&self, shares: &[Share], order: usize) -> Square {
         let mut sum = Square::zeros(order);
-        shares.iter().for_each(|share| sum.add(self.nominal_of(&share.factor), &share.matrix));
+        shares
+            .iter()
+            .filter(|share| !share.grows)
+            .for_each(|share| sum.add(self.nominal_of(&share.factor), &share.matrix));
         sum
     }
 }

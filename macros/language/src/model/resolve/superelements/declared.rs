@@ -2,8 +2,10 @@
 
 use std::rc::Rc;
 
+use crate::base::span::Extent;
 use crate::matrix_market::Matrix;
 use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::Frame;
 
 /// Rows of a station: along and about x, y and z.
 pub(super) const MOTIONS: usize = 6;
@@ -16,7 +18,9 @@ const CANCELLED: f64 = 16.0 * f64::EPSILON;
 /// A superelement as declared.
 #[derive(Clone, Debug)]
 pub(in crate::model::resolve) struct Declared {
-    /// Places in the ground.
+    /// The body that it stands on, if not on the ground.
+    pub(super) base: Option<(Frame, Extent)>,
+    /// Places there.
     pub(in crate::model::resolve) stations: Vec<Vector>,
     pub(super) mass: Vec<Share>,
     pub(super) stiffness: Vec<Share>,
@@ -31,6 +35,8 @@ pub(in crate::model::resolve) struct Declared {
 pub(super) struct Share {
     pub(super) factor: Expr,
     pub(super) matrix: Rc<Square>,
+    /// Whether the factor is the square of a speed.
+    pub(super) grows: bool,
 }
 
 /// A symmetric or skew-symmetric matrix.
@@ -55,6 +61,20 @@ impl Square {
         for (place, entry) in square.entries.iter_mut().enumerate() {
             if entry.abs() <= CANCELLED * size[place / matrix.rows] * size[place % matrix.rows] {
                 *entry = 0.0;
+            }
+        }
+        square
+    }
+
+    /// With entries of nodes for each two stations, times a matrix of directions.
+    pub(super) fn of_nodes(order: usize, across: f64, entry: impl Fn([usize; 2], [usize; 2]) -> f64) -> Self {
+        let mut square = Self { across, ..Self::zeros(order) };
+        for row in 0..order {
+            for column in 0..order {
+                let [i, j] = [row, column].map(|k| (k / MOTIONS, k % MOTIONS));
+                if i.1 < 3 && j.1 < 3 {
+                    square.entries[row * order + column] = entry([i.0, j.0], [i.1, j.1]);
+                }
             }
         }
         square
@@ -92,14 +112,18 @@ impl Square {
 
 impl Declared {
     /// Of shares of mass, stiffness, damping and gyroscopic forces; the first two have some.
-    pub(super) fn new(stations: Vec<Vector>, [mass, stiffness, damping, gyroscopic]: [Vec<Share>; 4]) -> Self {
+    pub(super) fn new(
+        base: Option<(Frame, Extent)>,
+        stations: Vec<Vector>,
+        [mass, stiffness, damping, gyroscopic]: [Vec<Share>; 4],
+    ) -> Self {
         let order = mass[0].matrix.order;
         let matrices = || mass.iter().chain(&stiffness).map(|share| &share.matrix);
         let is_used = |row: usize| {
             matrices().any(|matrix| row < matrix.order && matrix.row(row).iter().any(|entry| *entry != 0.0))
         };
         let moves = (0..order).map(is_used).collect();
-        Self { stations, mass, stiffness, damping: [damping, gyroscopic], moves }
+        Self { base, stations, mass, stiffness, damping: [damping, gyroscopic], moves }
     }
 
     pub(super) fn order(&self) -> usize {

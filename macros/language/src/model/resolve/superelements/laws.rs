@@ -10,7 +10,7 @@ use crate::base::ids::{BodyId, CoordinateId};
 use crate::base::names::joined;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Joint, Motion, ShaftStation, Superelement,
+    Body, Coordinate, CoordinateQuantity, Force, ForceLaw, Frame, Joint, Motion, ShaftStation, Superelement,
 };
 use crate::model::simplify::{add, multiply, negate, subtract};
 
@@ -31,6 +31,19 @@ impl Resolver<'_> {
         let mut all = Vec::new();
         for (index, name, declared) in stations.superelements() {
             let Some(root) = bodies.iter().position(|body| body.name == *name) else { continue };
+            let spin = match declared.base {
+                Some((base, at)) => self.spin(name, base, at, joints, gravity).map(Some),
+                None => Some(None),
+            };
+            let Some(spin) = spin else { continue };
+            let spun = match &spin {
+                Some(spin) => match self.spun(name, declared, spin) {
+                    Some(spun) => spun,
+                    None => continue,
+                },
+                None => declared.clone(),
+            };
+            let base = declared.base.map_or(Frame::Ground, |(base, _)| base);
             let mut own = Vec::new();
             for (place, offset) in declared.stations.iter().enumerate() {
                 let used = || stations.used.iter().position(|at| *at == (index, place as f64));
@@ -38,11 +51,22 @@ impl Resolver<'_> {
                 let moves = |k: usize| declared.moves[MOTIONS * place + k];
                 let motions = [0, 1, 2, 3, 4, 5].map(|k| moves(k).then(|| (NAMES[k], unit(k % 3), k >= 3)));
                 let standing =
-                    Standing { name, place, number: place + 1, body: BodyId::new(body), offset: offset.clone() };
+                    Standing { name, place, number: place + 1, base, body: BodyId::new(body), offset: offset.clone() };
                 own.push(self.station_with(standing, motions, bodies, joints));
             }
             let (internal, coordinates) = self.internal(name, declared, &own);
-            forces.extend(laws(declared, &coordinates, gravity).into_iter().map(|law| Force {
+            let accelerations: Vec<Vector> = declared
+                .stations
+                .iter()
+                .map(|place| {
+                    let outwards = spin.as_ref().map(|spin| spin.outwards(place));
+                    [0, 1, 2].map(|k| {
+                        let own = outwards.as_ref().map_or(Expr::Number(0.0), |own| own[k].clone());
+                        add(gravity[k].clone(), own)
+                    })
+                })
+                .collect();
+            forces.extend(laws(&spun, &coordinates, &accelerations).into_iter().map(|law| Force {
                 name: name.clone(),
                 law,
                 of_every: true,
@@ -86,7 +110,7 @@ fn unit(axis: usize) -> Vector {
 }
 
 /// The matrices as forces: inertia of each two coordinates, and for each row an energy with its weight, and damping.
-fn laws(declared: &Declared, coordinates: &[Option<CoordinateId>], gravity: &Vector) -> Vec<ForceLaw> {
+fn laws(declared: &Declared, coordinates: &[Option<CoordinateId>], accelerations: &[Vector]) -> Vec<ForceLaw> {
     let mut laws = Vec::new();
     let rows = || coordinates.iter().enumerate().filter_map(|(row, id)| Some((row, (*id)?)));
     for (row, id) in rows() {
@@ -103,7 +127,7 @@ fn laws(declared: &Declared, coordinates: &[Option<CoordinateId>], gravity: &Vec
             });
             before.collect()
         });
-        let energy = subtract(elastic, weight(declared, row, gravity));
+        let energy = subtract(elastic, weight(declared, row, accelerations));
         if energy != Expr::Number(0.0) {
             laws.push(ForceLaw::Potential { energy: multiply(Expr::Coordinate(id), energy) });
         }
@@ -120,14 +144,17 @@ fn laws(declared: &Declared, coordinates: &[Option<CoordinateId>], gravity: &Vec
     laws
 }
 
-/// The weight in a row: what stands in it of the mass when all moves along gravity.
-fn weight(declared: &Declared, row: usize, gravity: &Vector) -> Expr {
-    let stations = declared.stations.len();
-    let along = |direction: usize| {
-        let moved = |share: &Share| (0..stations).map(|k| share.matrix.mean(row, MOTIONS * k + direction)).sum();
-        multiply(sum_of(&declared.mass, moved), gravity[direction].clone())
+/// The weight in a row: what stands in it of the mass when each station moves along the acceleration there.
+fn weight(declared: &Declared, row: usize, accelerations: &[Vector]) -> Expr {
+    let of_share = |share: &Share| {
+        let terms = accelerations.iter().enumerate().flat_map(|(station, own)| {
+            own.iter().enumerate().map(move |(axis, own)| {
+                multiply(Expr::Number(share.matrix.mean(row, MOTIONS * station + axis)), own.clone())
+            })
+        });
+        multiply(share.factor.clone(), terms.fold(Expr::Number(0.0), add))
     };
-    add(add(along(0), along(1)), along(2))
+    declared.mass.iter().map(of_share).fold(Expr::Number(0.0), add)
 }
 
 /// The mass, in the first direction in which all stations move.
