@@ -87,12 +87,14 @@ impl Shafts {
             if !weighs {
                 return None;
             }
-            let size = |row: &[Complex]| row.iter().zip(&right).map(|(a, x)| a.norm() * x.norm()).sum::<f64>();
-            let terms: f64 = left.iter().zip(matrix.iter()).map(|(l, row)| l.norm() * size(row)).sum();
+            let moved: Vec<f64> = right.iter().map(|x| x.norm_sqr().sqrt()).collect();
+            let size = |row: &[Complex]| row.iter().zip(&moved).map(|(a, x)| a.norm_sqr().sqrt() * x).sum::<f64>();
+            let sizes: Vec<f64> = matrix.iter().map(size).collect();
+            let terms: f64 = left.iter().zip(&sizes).map(|(l, size)| l.norm() * size).sum();
             let slope: Complex = left.iter().zip(slope.iter()).map(|(l, row)| l * dot_complex(row, &right)).sum();
             let error = ROUNDING * (terms / slope.norm() + s.norm() + 0.5 * within / s.norm());
-            let rest = |row: &[Complex]| dot_complex(row, &right).norm() / size(row).max(f64::MIN_POSITIVE);
-            let rest = matrix.iter().map(rest).fold(0.0, f64::max);
+            let rest = |(row, size): (&[Complex], &f64)| dot_complex(row, &right).norm() / size.max(f64::MIN_POSITIVE);
+            let rest = matrix.iter().zip(&sizes).map(rest).fold(0.0, f64::max);
             let behaviour = Behaviour::of_general(s, error, false);
             modes.push(Mode::general(s, (right, left), behaviour, rest, error));
         }

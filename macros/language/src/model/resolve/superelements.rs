@@ -49,10 +49,9 @@ impl Role {
     fn takes(self, factor: Dimension) -> (bool, &'static str) {
         let (more, words): (&[Dimension], _) = match self {
             Self::Mass => (&[], "of mass is multiplied by a plain number"),
-            Self::Stiffness => (
-                &[SQUARE],
-                "of stiffness is multiplied by a plain number, one at 1 rad/s by the square of a speed",
-            ),
+            Self::Stiffness => {
+                (&[SQUARE], "of stiffness is multiplied by a plain number, one at 1 rad/s by the square of a speed")
+            }
             Self::Damping => (
                 &[Dimension::TIME, Dimension::RATE],
                 "is damping by a plain number, or one of stiffness by a time, or one of mass by 1/s",
