@@ -31,7 +31,7 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
         let Some((kind, _)) = key.split_once("Element_").or_else(|| key.split_once('_')) else { continue };
         let Value::Object(fields) = value else { continue };
         match kind {
-            "Shaft" | "Disk" => elements.entry(kind).or_default().push(Element { key, fields }),
+            "Shaft" | "Disk" | "PointMass" => elements.entry(kind).or_default().push(Element { key, fields }),
             _ if fields.contains_key("kxx") => elements.entry("Bearing").or_default().push(Element { key, fields }),
             _ if fields.contains_key("n") => {
                 notes.push(format!("`{key}` is left out: shafts, disks, bearings and seals are translated"));
@@ -76,26 +76,61 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
         same => format!(", tension: {same} N"),
     };
     let slender = of("Shaft").iter().all(|layer| layer.fields.get("shear_effects") == Some(&Value::Bool(false)));
-    let station = |element: &Element<'_>| -> Result<usize, String> {
+    let on_shaft = |node: usize| node.checked_sub(first).filter(|station| *station < places.len());
+    let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
+    for bearing in of("Bearing") {
+        let Some(link) = bearing.link() else { continue };
+        let key = bearing.key;
+        let station = on_shaft(bearing.node()?).filter(|_| on_shaft(link).is_none());
+        let station = station.ok_or_else(|| format!("`{key}` does not link the shaft to a support beside it"))?;
+        supports.insert(link, Support { place: places[station], masses: [0.0; 2] });
+    }
+    for mass in of("PointMass") {
+        if let Some(support) = supports.get_mut(&mass.node()?) {
+            support.masses[0] += mass.number("mx")?;
+            support.masses[1] += mass.number("my")?;
+        }
+    }
+    let standing = |element: &Element<'_>| -> Result<Standing, String> {
         let node = element.node()?;
-        let inside = node.checked_sub(first).filter(|station| *station < places.len());
-        inside.ok_or_else(|| format!("`{}` is at node {node}, which is off the shaft", element.key))
+        match (on_shaft(node), supports.get(&node)) {
+            (Some(station), _) => Ok(Standing { on: format!("rotor at station {station}"), place: places[station] }),
+            (None, Some(own)) => Ok(Standing { on: format!("support_{node} at [0, 0, 0]"), place: own.place }),
+            (None, None) => Err(format!("`{}` is at node {node}, which is off the shaft", element.key)),
+        }
     };
     let mut rest = String::new();
     for (k, disk) in of("Disk").iter().enumerate() {
         let [mass, across, about] = [disk.number("m")?, disk.number("Id")?, disk.number("Ip")?];
         rest += &format!(
             "\n    body disk_{k}: rigid(mass: {mass} kg, inertia: [{about}, {across}, {across}] kg*m^2);
-    joint turns_{k}: revolute(x) from rotor at station {} to disk_{k}, driven at speed;\n",
-            station(disk)?
+    joint turns_{k}: revolute(x) from {} to disk_{k}, driven at speed;\n",
+            standing(disk)?.on
         );
     }
-    for (k, bearing) in of("Bearing").iter().enumerate() {
-        if bearing.fields.get("n_link").is_some_and(|link| !link.is_null()) {
-            return Err(format!("`{}` stands on another node (`n_link`): declare its support yourself", bearing.key));
+    for (k, mass) in of("PointMass").iter().enumerate() {
+        let [across, up] = [mass.number("mx")?, mass.number("my")?];
+        if supports.contains_key(&mass.node()?) {
+            continue;
         }
-        let place = station(bearing)?;
-        rest += &bearing.film(k, (place, places[place]))?;
+        if across != up {
+            return Err(format!("`{}` has different masses along x and y, where the shaft has one", mass.key));
+        }
+        rest += &format!(
+            "\n    body mass_{k}: point(mass: {across} kg);\n    joint carries_{k}: fixed from {} to mass_{k};\n",
+            standing(mass)?.on
+        );
+    }
+    for (node, support) in &supports {
+        rest += &support.declared(*node)?;
+    }
+    for (k, bearing) in of("Bearing").iter().enumerate() {
+        let own = standing(bearing)?;
+        let seat = match bearing.link() {
+            Some(node) => format!("support_{node} at [0, 0, 0]"),
+            None => format!("ground at [{} m, 0, 0]", own.place),
+        };
+        rest += &bearing.film(k, [&seat, &own.on])?;
         if ["mxx", "myy", "mxy", "myx"].iter().any(|mass| bearing.largest(mass) != 0.0) {
             notes.push(format!("the masses of `{}` are left out", bearing.key));
         }
@@ -200,8 +235,13 @@ impl Element<'_> {
         all
     }
 
-    /// The force of a bearing, with curves against speed.
-    fn film(&self, k: usize, (station, place): (usize, f64)) -> Result<String, String> {
+    /// The node beside the shaft that it stands on.
+    fn link(&self) -> Option<usize> {
+        Some(self.fields.get("n_link")?.as_u64()? as usize)
+    }
+
+    /// The force of a bearing between two places, with curves against speed.
+    fn film(&self, k: usize, [seat, journal]: [&str; 2]) -> Result<String, String> {
         let speeds = self.list("frequency");
         let mut curves = String::new();
         let mut coefficient = |field: &str, unit: &str| -> Result<String, String> {
@@ -223,13 +263,45 @@ impl Element<'_> {
         };
         let (stiffness, damping) = (matrix("k", "N/m")?, matrix("c", "N*s/m")?);
         Ok(format!(
-            "\n{curves}    point seat_{k}: ground at [{place} m, 0, 0];
-    point journal_{k}: rotor at station {station};
+            "\n{curves}    point seat_{k}: {seat};
+    point journal_{k}: {journal};
     force bearing_{k}: bushing(from: seat_{k}, to: journal_{k},
         stiffness: {stiffness},
         damping: {damping});
     output across_{k} = position(journal_{k}).y;
     output up_{k} = position(journal_{k}).z;\n"
+        ))
+    }
+}
+
+/// Where something stands.
+struct Standing {
+    on: String,
+    place: f64,
+}
+
+/// A mass beside the shaft, between two bearings.
+struct Support {
+    place: f64,
+    /// That it has along y and z.
+    masses: [f64; 2],
+}
+
+impl Support {
+    /// On two slides, the first along the direction with more mass.
+    fn declared(&self, node: usize) -> Result<String, String> {
+        let [y, z] = self.masses;
+        if y.min(z) <= 0.0 {
+            return Err(format!("node {node} is a support without mass: give it a `PointMass` in both directions"));
+        }
+        let (first, last) = if y < z { ("z", "y") } else { ("y", "z") };
+        let more = if y == z { "massless".to_owned() } else { format!("point(mass: {} kg)", (y - z).abs()) };
+        Ok(format!(
+            "\n    body way_{node}: {more};\n    body support_{node}: point(mass: {} kg);
+    joint support_{node}_{first}: prismatic({first}) from ground to way_{node} at [{} m, 0, 0];
+    joint support_{node}_{last}: prismatic({last}) from way_{node} to support_{node};\n",
+            y.min(z),
+            self.place
         ))
     }
 }

@@ -35,10 +35,23 @@ const CLOSE: f64 = 1e-9;
 const STAYS: f64 = 1e-7;
 /// The square of an eigenvalue that is rounding, as a part of the terms that cancel in it.
 const RIGID: f64 = 256.0 * f64::EPSILON;
+/// What is slower than so many times that may be nothing but rounding.
+const SLOW: f64 = 16.0;
 /// The relative error of an approximation below which it is one of that mode.
 const CONVERGED: f64 = 1e-2;
+/// That below which the modes nearest to a shift are all among the approximations.
+const KNOWN: f64 = 1e-4;
 /// The most Krylov spaces.
 const SPACES: usize = 6;
+/// How far beside an eigenvalue, as a part of it, equations are solved that are singular there: as little as does.
+const BESIDE: [f64; 5] = [0.0, 1e-10, 1e-8, 1e-6, 1e-4];
+/// How far from an approximation its mode may be, in units of the error that is expected, and as a part of it in any case.
+const FAR: f64 = 100.0;
+const NEAR: f64 = 1e-2;
+/// Steps that do not move `s` where those before have left a mode.
+const AGAIN: usize = 6;
+/// The most that resistance by the rate may be, as a part of stiffness, where motions are sought.
+const GATHERED: f64 = 0.7;
 /// Radians by which a determinant may turn in half a step along an edge.
 const TURN: f64 = 0.9;
 /// Distance of equal eigenvalues as a part of them.
@@ -48,7 +61,7 @@ const BLENDED: f64 = 1e-5;
 /// Rounding of an eigenvalue in units of that of the terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// How far beside an eigenvalue another one near it is looked for, as a part of it.
-const APART: f64 = 1e-7;
+const APART: f64 = 1e-5;
 /// What is left of a unit vector without the known modes, below which no other is near.
 const ALONE: f64 = 1e-3;
 /// Most modes that one is looked for beside.
@@ -66,11 +79,19 @@ impl Assembly {
     /// [`Error::NotConverged`].
     pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
         let rigid = self.rigid();
-        let (mut modes, lost) = self.of_krylov((count + 2, count), |s| s.im > rigid)?;
-        modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
-        modes.truncate(count);
-        let complete = modes.len() == count && modes.iter().all(|mode| mode.s.im < lost);
-        if complete || lost.is_infinite() { Ok(modes) } else { Err(Error::NotConverged) }
+        // Where one of them has been lost, a larger space knows it better.
+        for more in [2, 8] {
+            let wanted = |s: Complex| s.im > rigid && !self.gathers(s);
+            let (mut modes, lost) = self.of_krylov((count + more, count), wanted)?;
+            modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+            modes.truncate(count);
+            let complete = modes.len() == count && modes.iter().all(|mode| mode.s.norm() < lost);
+            modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
+            if complete || lost.is_infinite() {
+                return Ok(modes);
+            }
+        }
+        Err(Error::NotConverged)
     }
 
     /// The number of motions that grow without oscillating, as on springs that push away, at rates up to those of the lowest
@@ -83,21 +104,31 @@ impl Assembly {
         Ok(self.of_krylov((DIVERGENT, DIVERGENT), |s| s.im.abs() <= rigid && s.re > rigid)?.0.len())
     }
 
-    /// The wanted modes of a Krylov space, made exact, and the least frequency of an approximation that led to none.
+    /// The wanted modes of a Krylov space, made exact, and the least size of an approximation that led to none.
     fn of_krylov(&self, count: (usize, usize), wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Mode>, f64), Error> {
         let found = self.krylov(count, &wanted)?;
-        let near: Vec<Complex> = found.iter().map(|(s, _)| *s).collect();
-        let starts = found.into_iter().zip(self.pencils(&near)).map(|((s, stations), pencil)| {
-            let factors = factored(&pencil).or_else(|| factored(&self.pencils(&[s * (1.0 + 1e-10)]).pop()?))?;
-            let start = turned(&pencil, &factors, s, stations);
+        let near: Vec<Complex> = found.iter().map(|own| own.s).collect();
+        let starts = found.iter().zip(self.pencils(&near)).map(|(own, pencil)| {
+            let stations = own.stations.clone()?;
+            let (pencil, factors) = self.factored_beside(own.s, pencil)?;
+            let start = turned(&pencil, &factors, own.s, stations);
             let next = self.step(start.clone(), pencil).filter(|(_, step)| *step < CONVERGED);
             Some(next.map_or(start, |(mode, _)| mode))
         });
         let starts: Vec<Mode> = starts.collect::<Option<_>>().ok_or(Error::NotConverged)?;
         let (mut modes, mut lost): (Vec<Mode>, _) = (Vec::new(), f64::INFINITY);
-        for (mode, start) in self.refined(&starts).into_iter().zip(&starts) {
+        for ((mode, start), own) in self.refined(&starts).into_iter().zip(starts).zip(&found) {
+            // What a space knows well is not another mode: steps from there may have gone to one.
+            let reach = (FAR * own.rest).max(NEAR) * own.s.norm();
+            let stays = |mode: &Mode| (mode.s - own.s).norm() < reach || own.rest > CONVERGED;
+            let mode = mode.filter(stays).or_else(|| {
+                let again = Mode { s: own.s, ..start };
+                self.with_all_unknowns(&again, AGAIN).filter(stays)
+            });
             let Some(mode) = mode else {
-                lost = lost.min(start.s.im);
+                if own.s.norm() > SLOW * self.rigid() {
+                    lost = lost.min(own.s.norm());
+                }
                 continue;
             };
             // Both of two equal ones are found with the first.
@@ -240,7 +271,7 @@ impl Assembly {
             running = next;
         }
         for (place, found) in found.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
-            *found = self.with_all_unknowns(&starts[place]);
+            *found = self.with_all_unknowns(&starts[place], 2);
         }
         let mut all: Vec<&mut Mode> = found.iter_mut().flatten().collect();
         self.separate_each(&mut all);
@@ -300,12 +331,12 @@ impl Assembly {
     }
 
     /// The same with all unknowns in place of those of the stations: `T` has poles where spans vibrate between stations that
-    /// stand still, and next to one Newton's method leaves it.
-    fn with_all_unknowns(&self, start: &Mode) -> Option<Mode> {
+    /// stand still, and next to one Newton's method leaves it. So many steps do not move `s`.
+    fn with_all_unknowns(&self, start: &Mode, turns: usize) -> Option<Mode> {
         let mut s = start.s;
         let at = self.beside(s)?;
         let (mut right, mut left) = (at.condensed.motion(&start.right), at.condensed.weights(&start.left));
-        for _ in 0..2 {
+        for _ in 0..turns {
             right = at.solve(self.slope_loads(&right, s, Side::Right), Side::Right);
             left = at.solve(self.slope_loads(&left, s, Side::Left), Side::Left);
             right.normalise();
@@ -339,23 +370,24 @@ impl Assembly {
         None
     }
 
-    /// Factors at `s`, or beside it where there is nothing to solve with.
+    /// Factors at `s`, or so far beside it that rounding leaves something to solve with.
     fn beside(&self, s: Complex) -> Option<At<'_>> {
-        self.at(s).or_else(|| self.at(s * (1.0 + 1e-10)))
+        BESIDE.iter().find_map(|part| self.at(s * (1.0 + part)))
+    }
+
+    /// The same of the stations alone, from the pencil at `s`.
+    fn factored_beside(&self, s: Complex, pencil: Pencil) -> Option<(Pencil, Lu<Complex>)> {
+        let with_factors =
+            |pencil: Pencil| Some((factored(&pencil)?, pencil)).map(|(factors, pencil)| (pencil, factors));
+        let mut others = BESIDE[1..].iter();
+        with_factors(pencil).or_else(|| others.find_map(|part| with_factors(self.pencils(&[s * (1.0 + part)]).pop()?)))
     }
 
     /// A two-sided Newton step, and its size relative to `s`.
     fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64)> {
         let Mode { mut s, right, left } = mode;
-        let (pencil, factors) = match factored(&pencil) {
-            Some(factors) => (pencil, factors),
-            None => {
-                s *= 1.0 + 1e-10;
-                let beside = self.pencils(&[s]).pop()?;
-                let factors = factored(&beside)?;
-                (beside, factors)
-            }
-        };
+        let is_exact = factored(&pencil).is_none();
+        let (pencil, factors) = self.factored_beside(s, pencil)?;
         // T(s) right = on, so that on is what is left of the equations.
         let on = times(&pencil.slope, &right);
         let mut right = factors.solve(&on);
@@ -364,8 +396,9 @@ impl Assembly {
         normalised(&mut left);
         let rest = dot_complex(&left, &on) * size;
         let change = rest / dot_complex(&left, &times(&pencil.slope, &right));
-        s -= change;
-        let step = change.norm() / s.norm();
+        // Where rounding is all that is left of the determinant, `s` is as exact as it can be.
+        s -= if is_exact { Complex::ZERO } else { change };
+        let step = if is_exact { 0.0 } else { change.norm() / s.norm() };
         step.is_finite().then_some((Mode { s, right, left }, step))
     }
 
@@ -384,11 +417,7 @@ impl Assembly {
     /// Wanted eigenvalues near a shift and the motions of the stations, the nearest first. A shift far from all of them does not
     /// tell them from each other: as long as one of the nearest, up to `sure` wanted ones, has not converged, the next shift is
     /// what the slowest of them is, or the space has more directions.
-    fn krylov(
-        &self,
-        (count, sure): (usize, usize),
-        wanted: &impl Fn(Complex) -> bool,
-    ) -> Result<Vec<(Complex, Vector<Complex>)>, Error> {
+    fn krylov(&self, (count, sure): (usize, usize), wanted: &impl Fn(Complex) -> bool) -> Result<Vec<Ritz>, Error> {
         let (mut shift, mut steps) = (SHIFT * self.typical_frequency(), 2 * count + 14);
         let mut found = Vec::new();
         for _ in 0..SPACES {
@@ -398,14 +427,13 @@ impl Assembly {
             let is_known = ritz.iter().take(2 * count).all(|own| {
                 let needed = left > 0;
                 left -= usize::from(needed && own.stations.is_some());
-                !needed || own.rest < CONVERGED
+                !needed || own.rest < KNOWN
             });
-            let rigid = self.rigid();
+            let rigid = SLOW * self.rigid();
             let slowest =
                 ritz.iter().map(|own| own.s.norm()).filter(|size| *size > rigid).fold(f64::INFINITY, f64::min);
             let is_whole = space.basis.len() < steps;
-            let pairs = ritz.into_iter().filter_map(|own| Some((own.s, own.stations?)));
-            found = pairs.take(count).collect();
+            found = ritz.into_iter().filter(|own| own.stations.is_some()).take(count).collect();
             if is_known || is_whole {
                 break;
             }
@@ -416,6 +444,17 @@ impl Assembly {
             }
         }
         Ok(found)
+    }
+
+    /// Whether what lags resists by its rate nearly as much as by its stiffness, or more: where both are opposite, at
+    /// `-1 / lag + i speed`, infinitely many motions gather, which die away at once.
+    fn gathers(&self, s: Complex) -> bool {
+        let of_span = |span: &crate::Span| {
+            let rate = span.directions().iter().map(|d| (s - Complex::new(0.0, d * span.speed)).norm());
+            let rate = rate.fold(f64::INFINITY, f64::min);
+            span.sections.iter().any(|(own, _)| own.lag * rate > GATHERED)
+        };
+        self.spans().iter().any(of_span)
     }
 
     /// What is slower is a rigid motion, as far as rounding lets one see.

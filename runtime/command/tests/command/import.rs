@@ -128,6 +128,25 @@ fn a_rotor_of_ross_is_the_same_here() {
     }
 }
 
+/// Bearings on supports with masses, and an axial force.
+#[test]
+fn a_rotor_of_ross_on_supports_is_the_same_here() {
+    let ross = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/truth/ross");
+    let numbers: Value =
+        serde_json::from_str(&fs::read_to_string(ross.join("supports_numbers.json")).unwrap()).unwrap();
+    let run = run(&["import", &ross.join("supports.toml").display().to_string()]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let path = file(&folder("supports"), "supports.mechanism", &run.out);
+    let modes = documented(&["modes", &path, "--set", "speed=300rad/s"], "modes");
+    let (found, damping) = (numbers_of(&modes, "frequency"), numbers_of(&modes, "damping ratio"));
+    for k in 0..6 {
+        let [omega, decrement] = ["omega", "decrement"].map(|of| numbers[of][k].as_f64().unwrap());
+        assert!((found[k] / omega - 1.0).abs() < 1e-5, "{} {omega}", found[k]);
+        let own = 2.0 * PI * damping[k] / (1.0 - damping[k].powi(2)).sqrt();
+        assert!((own / decrement - 1.0).abs() < 1e-4, "{own} {decrement}");
+    }
+}
+
 fn numbers_of(table: &Table, column: &str) -> Vec<f64> {
     let column = table.columns.iter().find(|of| of.name == column).unwrap();
     let Values::Numbers(numbers) = &column.values else { panic!("{}", column.name) };

@@ -7,6 +7,7 @@ use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
 use crate::shafts::{Shafts, numbers};
 use crate::{Complex, Description, Equilibrium, Stability};
+use eigentol_contract::LineKind;
 use eigentol_shafts::Pencil;
 
 /// After how many states in succession modes are sought anew: others may have become the lowest.
@@ -65,17 +66,36 @@ impl Followed {
     }
 }
 
-/// The number of modes that are sought: those of lowest frequency.
+/// The number of modes that are sought, those of lowest frequency, for each shaft.
 const MODES: usize = 12;
+/// The most of all.
+const MOST_MODES: usize = 24;
 /// Damping that is none, as a part of the greatest: many motions have none at all.
 const UNDAMPED: f64 = 1e-12;
 /// Rounding of an eigenvalue in units of that of the largest terms.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// How many modes are sought: so many for each shaft, and one for each coordinate that is none of a shaft's.
+fn count(of: &Description) -> usize {
+    let bends = of.spans.iter().filter(|span| span.line != LineKind::Bar);
+    let first = |end: &[(usize, f64)]| end.first().map(|(index, _)| *index);
+    let mut stations: Vec<usize> =
+        bends.clone().flat_map(|span| span.ends.iter().filter_map(|end| first(end))).collect();
+    let mut own: Vec<usize> =
+        of.spans.iter().flat_map(|span| span.ends.iter().flat_map(|end| end.iter().map(|(index, _)| *index))).collect();
+    for list in [&mut stations, &mut own] {
+        list.sort_unstable();
+        list.dedup();
+    }
+    let shafts = stations.len().saturating_sub(bends.count()).max(1);
+    let others = of.coordinates.len() - own.len() - Structure::of(of).constraints();
+    (MODES * shafts + others).min(MOST_MODES)
+}
 
 impl Shafts {
     /// The modes at a state of these shafts, from those of a nearby one if given: the lowest that oscillate.
     pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode]) -> Option<Vec<Mode>> {
-        let found = self.followed(nearby).or_else(|| self.whole.modes(MODES).ok())?;
+        let found = self.followed(nearby).or_else(|| self.whole.modes(count(&at.description)).ok())?;
         let places: Vec<Complex> = found.iter().map(|own| own.s).collect();
         let (mut modes, within) = (Vec::new(), self.whole.terms());
         let (size, leading) = Normalisation::of(&at.description);

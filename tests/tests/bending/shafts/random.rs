@@ -121,15 +121,26 @@ fn derivatives_are_those_of_differences() {
                 let [a, b, c, d] = around.each_ref().map(of);
                 (a - d + 8.0 * (c - b)) / (12.0 * step)
             };
-            for (mode, sensitivity) in modes.modes.iter().zip(&sensitivities.modes).take(6) {
+            for (number, (mode, sensitivity)) in modes.modes.iter().zip(&sensitivities.modes).take(6).enumerate() {
                 let nearest = |study: &Study<Interpreted>| {
                     let modes = study.modes().expect("modes").modes;
                     let apart = |own: &eigentol::Mode| (own.s - mode.s).norm();
-                    modes.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes").s
+                    modes.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes")
                 };
-                let (found, expected) = (sensitivity.s().expect("derivatives").by_design[k], slope(&nearest));
+                let (found, expected) =
+                    (sensitivity.s().expect("derivatives").by_design[k], slope(&|study| nearest(study).s));
                 let error = (found - expected).norm() * nominal.abs();
                 assert!(error < 1e-8 * mode.s.norm(), "{seed} {k} {}: {found} {expected}", mode.s);
+                let shapes = study.shape_sensitivity(number).expect("derivatives of a shape");
+                let greatest = |shape: &[Complex]| shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
+                for i in 0..mode.shape.len() {
+                    let (found, expected) = (shapes.right_by_design[k][i], slope(&|study| nearest(study).shape[i]));
+                    let error = (found - expected).norm() * nominal.abs();
+                    assert!(error < 1e-6 * greatest(&mode.shape), "{seed} {k} {i}: {found} {expected}");
+                    let (found, expected) = (shapes.left_by_design[k][i], slope(&|study| nearest(study).left()[i]));
+                    let error = (found - expected).norm() * nominal.abs();
+                    assert!(error < 1e-6 * greatest(mode.left()), "{seed} {k} {i}: {found} {expected}");
+                }
             }
             for output in 0..2 {
                 let amplitude = |study: &Study<Interpreted>| {
@@ -378,9 +389,9 @@ fn slow_motions_beside_a_fast_shaft_are_found() {
             Study::new(machine(&text))
         };
         let modes = study("").modes().expect("modes").modes;
-        assert_eq!(modes.len(), 12);
+        assert_eq!(modes.len(), 24);
         let omega = |n: f64| (30.0 * n * n - 0.005 * 0.005_f64).sqrt();
-        for (n, mode) in (1..).zip(&modes) {
+        for (n, mode) in (1..).zip(&modes).take(16) {
             let expected = Complex::new(-0.005, omega(f64::from(n)));
             assert!((mode.s - expected).norm() < 1e-9 * expected.norm(), "{length} {n}: {} {expected}", mode.s);
         }
@@ -440,4 +451,94 @@ fn a_peak_is_higher_than_what_is_beside_it() {
         let aside = 0.5e-4 * (after - before) / (2.0 * top - before - after);
         assert!(before < top && after < top && aside.abs() < 1e-6, "{place}: {before} {top} {after}, {aside}");
     }
+}
+
+/// Spreads of an amplitude at a resonance are those of as many designs, each solved.
+#[test]
+fn spreads_at_a_resonance_are_those_of_designs() {
+    let vibration = Vibration::new(Output::<Interpreted>::new(0), Excitation::new(0));
+    for seed in [2, 4] {
+        let study = study(seed, 1);
+        let peaks = study.peaks(vibration, Input::new(0), 100.0, 1200.0).expect("peaks").peaks;
+        // Beside the peak, where the amplitude has a slope.
+        let study = study.input(Input::new(0), 1.02 * peaks[0].place.value);
+        let nominal = study.description().design[2].nominal;
+        let sigma = 0.01 * nominal;
+        let spread = study.clone().tolerance(DesignVariable::new(2), 3.0 * sigma);
+        let spread = spread.vibration_spread(&[vibration]).expect("a spread");
+        let spread = spread.spreads[0].as_ref().expect("a spread");
+        let height = |deviation: f64| {
+            let response = study.clone().design(DesignVariable::new(2), nominal + deviation).forced_response();
+            response.expect("a response").harmonics[0].outputs[0].expect("an amplitude").norm()
+        };
+        let steps: Vec<f64> = (-60..=60).map(|k| f64::from(k) / 12.0).collect();
+        let weights: Vec<f64> = steps.iter().map(|x| (-0.5 * x * x).exp()).collect();
+        let heights: Vec<f64> = steps.iter().map(|x| height(x * sigma)).collect();
+        let all: f64 = weights.iter().sum();
+        let mean = |of: &dyn Fn(f64) -> f64| heights.iter().zip(&weights).map(|(x, w)| of(*x) * w).sum::<f64>() / all;
+        let center = mean(&|x| x);
+        let deviation = mean(&|x| (x - center).powi(2)).sqrt();
+        let found = [spread.mean.value, spread.sigma.expect("a spread").value];
+        assert!(deviation > 0.005 * center, "the amplitude hardly changes: {deviation} of {center}");
+        assert!((found[0] - center).abs() < 5e-3 * center, "{seed}: {found:?} {center}");
+        assert!((found[1] - deviation).abs() < 5e-2 * deviation, "{seed}: {found:?} {deviation}");
+    }
+}
+
+/// Lists of modes are complete: of a rotor that bends, twists and stretches, with nothing that holds it along and about its axis, and of
+/// the same with each section in three, slow, fast and standing still; none of either is missing in the other.
+#[test]
+fn no_mode_is_missed() {
+    for seed in 20..26 {
+        let text = |split: usize| {
+            let text = rotor(seed, split);
+            if seed % 2 == 0 { text.replace("design lag = 4 us", "design lag = 0 us") } else { text }
+        };
+        let studies = [1, 3].map(|split| Study::new(machine(&text(split))));
+        for speed in [0.0, 1.0, 1500.0] {
+            let [a, b] = studies.each_ref().map(|study| {
+                let study = study.clone().input(Input::new(0), speed);
+                study.modes().unwrap_or_else(|error| panic!("{seed} {speed}: {error}")).modes
+            });
+            assert_eq!([a.len(), b.len()], [12; 2], "{seed} {speed}");
+            for (a, b) in a.iter().zip(&b) {
+                assert!((a.s - b.s).norm() < 1e-6 * b.s.norm(), "{seed} {speed}: {} {}", a.s, b.s);
+            }
+        }
+    }
+}
+
+/// What lags has motions that die away at once, infinitely many: they do not hide the others, nor the speed from which one grows.
+#[test]
+fn motions_that_die_away_at_once_hide_none() {
+    let text = |lag: f64| {
+        format!(
+            "mechanism Lagging {{ input omega: rad/s;
+                material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+                body rotor: shaft(along: x, up: z, material: steel, lag: {lag} us, sections: [[300 mm, 60 mm], [300 mm, 60 mm]])
+                    spinning at omega;
+                body disk: disk(mass: 20 kg, radius: 120 mm, axis: x);
+                joint turns: revolute(x) from rotor at station 1 to disk, driven at omega;
+                point a: rotor at root; point b: rotor at tip; point seat_a: ground; point seat_b: ground at [600, 0, 0] mm;
+                force left: bushing(from: seat_a, to: a, stiffness: [0, 9, 8] MN/m, damping: [0, 1, 1] kN*s/m);
+                force right: bushing(from: seat_b, to: b, stiffness: [0, 9, 8] MN/m, damping: [0, 1, 1] kN*s/m); }}"
+        )
+    };
+    // With little lag the modes are those without; the damping that it adds grows in proportion.
+    let modes = |lag: f64| Study::new(machine(&text(lag))).input(Input::new(0), 200.0).modes().expect("modes").modes;
+    let [none, little, much] = [0.0, 1.0, 100.0].map(modes);
+    for (none, little) in none.iter().zip(&little).take(2) {
+        let added = (little.s - none.s) * 100.0;
+        let apart = |own: &eigentol::Mode| (own.s - none.s - added).norm() / added.norm();
+        let nearest = much.iter().map(apart).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 0.1, "{} and {added} more: {nearest}", none.s);
+    }
+    let stable = |speed: f64| {
+        let study = Study::new(machine(&text(100.0))).input(Input::new(0), speed);
+        study.equilibrium().expect("a state").stability == Stability::Stable
+    };
+    // The limit is between, and is found.
+    let study = Study::new(machine(&text(100.0))).input(Input::new(0), 200.0);
+    let found = study.flutter_onsets(Input::new(0), 100.0, 3000.0).expect("onsets").swap_remove(0);
+    assert!(stable(0.999 * found.value) && !stable(1.001 * found.value), "{}", found.value);
 }

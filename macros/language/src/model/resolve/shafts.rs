@@ -65,10 +65,7 @@ impl Resolver<'_> {
             None => Some(Expr::Number(0.0)),
         };
         let axes = self.axes_of_beam(given);
-        let lag = match given.get("lag") {
-            Some(value) => self.scalar_of(value, Dimension::TIME, "`lag`"),
-            None => Some(Expr::Number(0.0)),
-        };
+        let lag = self.number_or_none(given, "lag", Dimension::TIME, false);
         let elements = match given.get("elements") {
             Some(value) => self.whole(value, "elements", 1..=MOST),
             None => Some(ELEMENTS),
@@ -88,17 +85,14 @@ impl Resolver<'_> {
         };
         let turned = "a shaft is not turned: `along` and `up` say how it lies";
         let origin = self.origin_of(shaft, "the place of a shaft's root", turned);
-        let drag = match given.get("drag") {
-            Some(value) => self.scalar_of(value, Dimension::new(-1, 1, -1), "`drag`"),
-            None => Some(Expr::Number(0.0)),
-        };
-        let tension = match given.get("tension") {
-            Some(value) => self.scalar_of(value, Dimension::FORCE, "`tension`"),
-            None => Some(Expr::Number(0.0)),
-        };
+        let drag = self.number_or_none(given, "drag", Dimension::new(-1, 1, -1), false);
+        let tension = self.number_or_none(given, "tension", Dimension::FORCE, true);
         let material = self.material_of(name, given);
         let coefficient = match given.get("shear_coefficient") {
-            Some(value) => self.scalar_of(value, Expected::ratio(), "`shear_coefficient`").map(Some),
+            Some(value) => self.scalar_of(value, Expected::ratio(), "`shear_coefficient`").map(|number| {
+                self.require_of_beam(name, "shear coefficient", &number, Dimension::NONE, value);
+                Some(number)
+            }),
             None => Some(None),
         };
         const NUMBERS: [&str; 7] = [
@@ -142,6 +136,23 @@ impl Resolver<'_> {
         })
     }
 
+    /// A number of the whole shaft, zero where it is not given; of some none is below zero.
+    fn number_or_none(
+        &mut self,
+        given: &Arguments<'_>,
+        word: &str,
+        dimension: Dimension,
+        below_zero: bool,
+    ) -> Option<Expr> {
+        let Some(value) = given.get(word) else { return Some(Expr::Number(0.0)) };
+        let number = self.scalar_of(value, dimension, &format!("`{word}`"))?;
+        if !below_zero && self.nominal_of(&number) < 0.0 {
+            self.diagnostics.error(value.extent, format!("`{word}` resists motion: it is not below zero"));
+            return None;
+        }
+        Some(number)
+    }
+
     /// Where a body with stations is, which its placement moves and does not turn.
     pub(super) fn origin_of(&mut self, term: &Term, what: &str, turned: &str) -> Option<Vector> {
         match &term.placement {
@@ -177,6 +188,10 @@ impl Resolver<'_> {
                 return None;
             };
             lines[known] = true;
+        }
+        if names.is_empty() {
+            let message = "a shaft without `lines` does nothing: `bending`, `torsion` or `stretch`, or several";
+            self.diagnostics.error(value.extent, message);
         }
         lines.contains(&true).then_some(lines)
     }
@@ -302,7 +317,11 @@ impl Resolver<'_> {
                 self.diagnostics.error_with_help(entry.extent, message, help);
                 return None;
             }
-            layers.push(self.layer(name, number, (outer, inner), (material, whole.1.clone()))?);
+            let layer = self.layer(name, number, (outer, inner), (material, whole.1.clone()))?;
+            if let Some(before) = layers.last() {
+                self.around(name, number, [before, &layer], outer)?;
+            }
+            layers.push(layer);
         }
         if layers.is_empty() {
             let message = format!("section {number} of `{name}` has a length and no diameter");
@@ -310,6 +329,24 @@ impl Resolver<'_> {
             return None;
         }
         Some(layers)
+    }
+
+    /// A layer begins where the one before it ends, or outside.
+    fn around(&mut self, name: &Ident, number: usize, layers: [&Layer; 2], at: &Value) -> Option<()> {
+        let radius =
+            |layer: &Layer, end: usize, k: usize| layer.table.ends[end].get(k).map_or(0.0, |x| self.nominal_of(x));
+        for end in 0..2 {
+            let [outer, inner] = [radius(layers[0], end, 0), radius(layers[1], end, 1)].map(|radius| 2.0 * radius);
+            if inner < outer * (1.0 - 1e-9) {
+                let message = format!(
+                    "this layer of section {number} of `{name}` begins at a diameter of {inner} m, within the layer before, which ends at {outer} m"
+                );
+                let help = "a layer around another has an inner diameter: `[80 mm, 40 mm, 20 mm, steel, 44 mm, 40 mm, bronze]`";
+                self.diagnostics.error_with_help(at.extent, message, help);
+                return None;
+            }
+        }
+        Some(())
     }
 
     /// What a name among the entries of a row means if it is a material, with an inner `None` if that is wrong.
@@ -407,10 +444,17 @@ impl Layer {
         first != last
     }
 
-    /// The greatest change of a size along it, as a logarithm.
+    /// The greatest change of a size or of the wall along it, as a logarithm.
     fn folds(&self, nominal: impl Fn(&Expr) -> f64) -> f64 {
-        let [first, last] = &self.table.ends;
-        let each = first.iter().zip(last).map(|(a, b)| (nominal(b) / nominal(a)).ln().abs());
+        let ends = self.table.ends.each_ref().map(|end| {
+            let mut sizes: Vec<f64> = end.iter().map(&nominal).collect();
+            // The wall too.
+            if let [outer, inner] = sizes[..] {
+                sizes.push(outer - inner);
+            }
+            sizes
+        });
+        let each = ends[0].iter().zip(&ends[1]).map(|(a, b)| (b / a).ln().abs());
         each.fold(0.0, f64::max)
     }
 
