@@ -13,7 +13,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::rotor::{Unbalanced, turning_mass, unbalances};
 use eigentol_interpreter::{Interpreted, value};
 use eigentol_results::numbers::{frequency_in, in_unit as number_in, number, rough, short, with_unit};
-use eigentol_results::{Answer, Columns, Findings, Subject};
+use eigentol_results::{Answer, Columns, Findings, at_point};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -279,9 +279,7 @@ struct Grades {
 impl Answer for Grades {
     const KIND: &'static str = "balance grades";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let name = &self.description.name;
