@@ -16,7 +16,7 @@ use super::joints::kinds::Kind;
 use super::resolver::Resolver;
 use crate::model::mechanism::{Body, Joint, Part};
 use crate::model::rules::composite::{GivenInertia, Welded};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::welded::groups;
 use crate::syntax::ast::{self, ItemKind, Term, Unread};
 
@@ -66,12 +66,9 @@ impl Resolver<'_> {
             let Some(first) = given.first() else {
                 continue;
             };
-            self.requirements.push(Requirement {
-                what: format!("the inertia of `{}`", first.body),
-                values: given.iter().flat_map(|given| given.central.clone()).collect(),
-                extent: first.extent,
-                demand: Demand::Inertia(Rc::new(Welded { bodies, given })),
-            });
+            let (what, extent) = (format!("the inertia of `{}`", first.body), first.extent);
+            let values: Vec<_> = given.iter().flat_map(|given| given.central.clone()).collect();
+            self.require(what, values, Demand::Inertia(Rc::new(Welded { bodies, given })), extent);
         }
     }
 
@@ -92,8 +89,7 @@ impl Resolver<'_> {
         if let Some(speed) = &body.spinning {
             let message = "only a `beam` or a `shaft` can spin about its own bent axis";
             let help = "turn the body by a joint: `revolute(x) ... driven at omega`";
-            self.diagnostics.error_with_help(speed.extent, message, help);
-            return None;
+            return self.refuse_with_help(speed.extent, message, help);
         }
         let right = self.first_is_solid(body);
         let resolved: Vec<Option<Part>> =
@@ -101,12 +97,12 @@ impl Resolver<'_> {
         right?;
         let parts: Vec<Part> = resolved.into_iter().collect::<Option<_>>()?;
         if let Some(hole) = body.terms.iter().find(|term| term.hole) {
-            self.requirements.push(Requirement {
-                what: format!("the holes of `{}`", body.name),
-                values: Vec::new(),
-                demand: Demand::Holes(Rc::from(parts.as_slice())),
-                extent: (&hole.shape.word).into(),
-            });
+            self.require(
+                format!("the holes of `{}`", body.name),
+                Vec::new(),
+                Demand::Holes(Rc::from(parts.as_slice())),
+                &hole.shape.word,
+            );
         }
         Some(parts)
     }
@@ -118,14 +114,12 @@ impl Resolver<'_> {
         let word = &massless.shape.word;
         if body.terms.len() > 1 || massless.hole {
             let message = "`massless` stands alone: it cannot be part of a sum";
-            self.diagnostics.error(word, message);
-            return None;
+            return self.refuse(word, message);
         }
         if let Some(placement) = &massless.placement {
             let message = "a massless body has no shape to place";
             let help = "place the joint instead";
-            self.diagnostics.error_with_help(placement.keyword, message, help);
-            return None;
+            return self.refuse_with_help(placement.keyword, message, help);
         }
         Some(Vec::new())
     }
@@ -134,8 +128,7 @@ impl Resolver<'_> {
         let first = body.terms.first()?;
         if first.hole {
             let message = "the first shape of a body cannot be a hole: there is nothing to cut";
-            self.diagnostics.error(&first.shape.word, message);
-            return None;
+            return self.refuse(&first.shape.word, message);
         }
         Some(())
     }

@@ -106,15 +106,13 @@ impl Resolver<'_> {
         let (word, quantity) = QUANTITIES[index];
         if let Some((_, what)) = repeated.iter().find(|(is_repeated, _)| *is_repeated) {
             let message = format!("every {word} has {what} already");
-            self.diagnostics.error(&every.law.word, message);
-            return None;
+            return self.refuse(&every.law.word, message);
         }
         let coordinates = self.free_coordinates(quantity);
         if coordinates.is_empty() && !self.may_have_more_coordinates() {
             let message = format!("no {word} is free");
             let help = "remove this, or let a joint move";
-            self.diagnostics.error_with_help(&every.quantity, message, help);
-            return None;
+            return self.refuse_with_help(&every.quantity, message, help);
         }
         Some(laws(every, forces, &coordinates, stiffness, damping, rest))
     }

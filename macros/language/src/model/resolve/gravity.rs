@@ -41,25 +41,22 @@ impl Resolver<'_> {
                 vector
             }
             (Typed::Scalar(..), None) => {
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     value.extent,
                     "gravity needs a direction",
                     "write `along -z` after its magnitude",
                 );
-                return None;
             }
             (Typed::Matrix(..), _) => {
                 let message = "a vector is expected here, this is a matrix";
-                self.diagnostics.error(value.extent, message);
-                return None;
+                return self.refuse(value.extent, message);
             }
             (Typed::Vector(..), Some(_)) => {
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     value.extent,
                     "this vector has a direction already",
                     "remove `along`, or give a magnitude instead of the vector",
                 );
-                return None;
             }
         };
         self.require_finite(&vector, what, value.extent);

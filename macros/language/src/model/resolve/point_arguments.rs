@@ -47,7 +47,6 @@ impl Resolver<'_> {
         } else {
             return Some((from, to));
         };
-        self.diagnostics.error(arguments.get(second)?.extent, message);
-        None
+        self.refuse(arguments.get(second)?.extent, message)
     }
 }

@@ -70,8 +70,7 @@ impl Resolver<'_> {
                 let name = written(name);
                 let message =
                     format!("`{lacking}` lacks the `{name}` that `{has}` has, so they are not equal around an axis");
-                self.report(of.name.span(), message, None);
-                return None;
+                return self.refuse_with(of.name.span(), message, None);
             }
         }
         Some(found.into_iter().map(|(name, ids)| (name, ids.into_iter().flatten().collect())).collect())

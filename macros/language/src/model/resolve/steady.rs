@@ -34,13 +34,11 @@ impl Resolver<'_> {
             DeclaredMotion::Driven => {
                 let message = format!("`{name}` is driven: its drive gives its speed");
                 let help = "only a free coordinate, or the speed of a coasting one, can select a steady motion";
-                self.diagnostics.error_with_help(name, message, help);
-                return None;
+                return self.refuse_with_help(name, message, help);
             }
             DeclaredMotion::Shaken => {
                 let message = format!("`{name}` is shaken about zero: it has no other steady value");
-                self.diagnostics.error(name, message);
-                return None;
+                return self.refuse(name, message);
             }
         };
         let value = self.scalar_of(value, dimension, &what)?;

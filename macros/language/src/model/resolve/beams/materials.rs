@@ -49,8 +49,7 @@ impl Resolver<'_> {
         let (density, modulus, shear, poisson) = (density?, modulus?, shear?, poisson?);
         if let (Some(_), Some(_), Some(value)) = (&shear, &poisson, given.get("poisson")) {
             let message = "`shear_modulus` and `poisson` say the same: give one of them";
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         let shear_modulus = match (shear, &modulus, poisson) {
             (Some(shear), ..) => Some(shear),
@@ -86,8 +85,7 @@ impl Resolver<'_> {
             && !(-1.0 < number && number <= 0.5)
         {
             let message = format!("Poisson's ratio is {number}; it lies between -1 and 0.5");
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         Some(poisson)
     }
@@ -100,16 +98,14 @@ impl Resolver<'_> {
         };
         let ValueKind::Name(wanted) = &value.kind else {
             let message = "`material` is the name of a declared material";
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         };
         let own_names = ["density", "modulus", "shear_modulus", "poisson"];
         let other = own_names.into_iter().find_map(|name| Some((name, given.get(name)?)));
         if let Some((other, value)) = other {
             let message = format!("a beam takes `material` or `{other}`, not both");
             let help = format!("leave out `{other}`, or declare another material");
-            self.diagnostics.error_with_help(value.extent, message, help);
-            return None;
+            return self.refuse_with_help(value.extent, message, help);
         }
         let text = wanted.to_string();
         if let Some((_, material)) = self.materials.iter().find(|(name, _)| *name == text) {

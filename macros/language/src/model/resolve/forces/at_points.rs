@@ -22,8 +22,7 @@ impl Resolver<'_> {
             _ => {
                 let message = "`on` is the name of a beam";
                 let help = "a force at one place of a body is a `load`";
-                self.diagnostics.error_with_help(value.extent, message, help);
-                None
+                self.refuse_with_help(value.extent, message, help)
             }
         });
         let per_length = Expected::force_per_length;
@@ -49,8 +48,7 @@ impl Resolver<'_> {
         if self.point_frame(point)? == "ground" {
             let value = arguments.get("at")?;
             let message = format!("this point is fixed in the ground: {reason}");
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         Some(point)
     }

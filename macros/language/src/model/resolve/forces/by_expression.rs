@@ -29,12 +29,11 @@ impl Resolver<'_> {
         let (energy, quantity) = self.scalar(value, ValueContext::Energy)?;
         self.expect(quantity, Expected::energy(), "a potential", value)?;
         if !self.moves(&energy) {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 value.extent,
                 "this energy never changes, so it exerts no force",
                 "write it with coordinates, or with positions of points",
             );
-            return None;
         }
         Some(ForceLaw::Potential { energy })
     }

@@ -63,36 +63,31 @@ impl Resolver<'_> {
                 _ => "write one `generalized` force on each coordinate, with `rate` of the others in its `value`"
                     .to_string(),
             };
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 on.extent,
                 format!("a {word} acts on one coordinate, given by its name"),
                 help,
             );
-            return None;
         }
         let name = self.name_of(on, "coordinate")?;
         let coordinate = self.coordinate(name)?;
         match self.coordinates.get(coordinate.0.index())?.motion {
             motion @ (DeclaredMotion::Driven | DeclaredMotion::Shaken) => {
                 let given = motion.word();
-                self.diagnostics.error_with_help(
+                self.refuse_with_help(
                     name,
                     format!("`{name}` is {given}; a {word} on it has no effect on the motion"),
                     match motion {
                         DeclaredMotion::Shaken => format!("remove the {word}, or `shaken`"),
                         _ => format!("remove the {word}, or the drive"),
                     },
-                );
-                None
+                )
             }
-            DeclaredMotion::Coasting if word == "spring" => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{name}` is coasting: nothing may depend on how far it has gone"),
-                    "a `damper` or a `generalized` force may act on it",
-                );
-                None
-            }
+            DeclaredMotion::Coasting if word == "spring" => self.refuse_with_help(
+                name,
+                format!("`{name}` is coasting: nothing may depend on how far it has gone"),
+                "a `damper` or a `generalized` force may act on it",
+            ),
             _ => Some(coordinate),
         }
     }

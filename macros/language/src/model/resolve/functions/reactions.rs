@@ -62,14 +62,11 @@ impl Resolver<'_> {
                 let value = Expr::Exerted(id, 0);
                 Some(Typed::Scalar(value, Quantity::Of(Dimension::FORCE)))
             }
-            Some(Meaning::Joint(_) | Meaning::OnlyCoordinate(_)) => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{name}` is a joint; a constraint is expected here"),
-                    format!("write `reaction_force({name})` or `reaction_moment({name})`"),
-                );
-                None
-            }
+            Some(Meaning::Joint(_) | Meaning::OnlyCoordinate(_)) => self.refuse_with_help(
+                name,
+                format!("`{name}` is a joint; a constraint is expected here"),
+                format!("write `reaction_force({name})` or `reaction_moment({name})`"),
+            ),
             other => {
                 let right = |meaning| matches!(meaning, Meaning::Constraint(_));
                 self.wrong_reference(name, "constraint", other, right);
