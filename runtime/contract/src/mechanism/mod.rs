@@ -56,6 +56,25 @@ pub type OutputMotionOf<M, T> = (
     <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<T>>,
 );
 
+/// Forms of methods that are inlined at the call site; each calls the method.
+macro_rules! inlined {
+    ($($(#[$attribute:meta])* $inlined:ident: $kernel:ident($($argument:ident: $kind:ty),*) -> $result:ty;)*) => {$(
+        $(#[$attribute])*
+        #[doc(hidden)]
+        #[allow(clippy::too_many_arguments)]
+        #[inline(always)]
+        fn $inlined<T: Real>(
+            &self,
+            q: &Self::Coordinates<T>,
+            u: &Self::Inputs<T>,
+            b: &Self::Design<T>,
+            $($argument: $kind),*
+        ) -> $result {
+            self.$kernel(q, u, b, $($argument),*)
+        }
+    )*};
+}
+
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables, `O` outputs and `E`
 /// excitations.
 ///
@@ -569,150 +588,35 @@ pub trait Mechanism: Clone + Sync + Sized {
         )
     }
 
-    /// [`Mechanism::residual_and_stiffness`], inlined at the call site (like the others below), as vector instructions
-    /// require. Generated code overrides it.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_and_stiffness_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> (Self::Coordinates<T>, Square<Self, T>) {
-        self.residual_and_stiffness(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_parts_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> RestParts<Self::Coordinates<T>> {
-        self.residual_parts(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn linear_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> Linear<Square<Self, T>> {
-        self.linear(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_partials_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> ResidualPartialsOf<Self, T> {
-        self.residual_partials(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn linear_partials_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> PartialsOf<Self, T> {
-        self.linear_partials(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn linear_partials_into_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        result: &mut PartialsOf<Self, T>,
-    ) {
-        self.linear_partials_into(q, u, b, result);
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn mode_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        phi: &Self::Coordinates<T>,
-        lambda: T,
-    ) -> GradientOf<Self, T> {
-        self.mode_gradient(q, u, b, phi, lambda)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        w: &Self::Coordinates<T>,
-    ) -> GradientOf<Self, T> {
-        self.residual_gradient(q, u, b, w)
-    }
-
-    #[doc(hidden)]
-    #[allow(clippy::too_many_arguments)]
-    #[inline(always)]
-    fn pencil_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        left: &Self::Coordinates<T>,
-        acceleration: &Self::Coordinates<T>,
-        velocity: &Self::Coordinates<T>,
-        position: &Self::Coordinates<T>,
-    ) -> GradientOf<Self, T> {
-        self.pencil_gradient(q, u, b, left, acceleration, velocity, position)
-    }
-
-    #[doc(hidden)]
-    #[allow(clippy::too_many_arguments)]
-    #[inline(always)]
-    fn forced_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        output: &Self::Outputs<T>,
-        acceleration: &Self::Coordinates<T>,
-        velocity: &Self::Coordinates<T>,
-        position: &Self::Coordinates<T>,
-        share: &Self::Excitations<T>,
-        cosine: &Self::Coordinates<T>,
-        sine: &Self::Coordinates<T>,
-        direct_cosine: &Self::Outputs<T>,
-        direct_sine: &Self::Outputs<T>,
-        frequency: &Self::Excitations<T>,
-    ) -> GradientOf<Self, T> {
-        self.forced_gradient(
-            q,
-            u,
-            b,
-            output,
-            acceleration,
-            velocity,
-            position,
-            share,
-            cosine,
-            sine,
-            direct_cosine,
-            direct_sine,
-            frequency,
-        )
+    inlined! {
+        /// [`Mechanism::residual_and_stiffness`], inlined at the call site (like the others below), as vector instructions
+        /// require. Generated code overrides it.
+        residual_and_stiffness_inlined: residual_and_stiffness() -> (Self::Coordinates<T>, Square<Self, T>);
+        residual_parts_inlined: residual_parts() -> RestParts<Self::Coordinates<T>>;
+        linear_inlined: linear() -> Linear<Square<Self, T>>;
+        residual_partials_inlined: residual_partials() -> ResidualPartialsOf<Self, T>;
+        linear_partials_inlined: linear_partials() -> PartialsOf<Self, T>;
+        linear_partials_into_inlined: linear_partials_into(result: &mut PartialsOf<Self, T>) -> ();
+        mode_gradient_inlined: mode_gradient(phi: &Self::Coordinates<T>, lambda: T) -> GradientOf<Self, T>;
+        residual_gradient_inlined: residual_gradient(w: &Self::Coordinates<T>) -> GradientOf<Self, T>;
+        pencil_gradient_inlined: pencil_gradient(
+            left: &Self::Coordinates<T>,
+            acceleration: &Self::Coordinates<T>,
+            velocity: &Self::Coordinates<T>,
+            position: &Self::Coordinates<T>
+        ) -> GradientOf<Self, T>;
+        forced_gradient_inlined: forced_gradient(
+            output: &Self::Outputs<T>,
+            acceleration: &Self::Coordinates<T>,
+            velocity: &Self::Coordinates<T>,
+            position: &Self::Coordinates<T>,
+            share: &Self::Excitations<T>,
+            cosine: &Self::Coordinates<T>,
+            sine: &Self::Coordinates<T>,
+            direct_cosine: &Self::Outputs<T>,
+            direct_sine: &Self::Outputs<T>,
+            frequency: &Self::Excitations<T>
+        ) -> GradientOf<Self, T>;
     }
 }
 
