@@ -30,7 +30,6 @@ const NOT_WRITTEN: [(&str, &str); 35] = [
     ("Derived", "derivatives on their way to a text"),
     ("Variable", "a name and a unit for texts"),
     ("PartialMatrices", "an intermediate result of kernels"),
-    ("PencilAlong", "borrows its values"),
     ("Requirements", "borrows a mechanism"),
     ("Responses", "borrows a mechanism"),
     ("Sampling", "holds a function"),
