@@ -6,8 +6,6 @@ mod shapes;
 
 use std::rc::Rc;
 
-use proc_macro2::Ident;
-
 use self::quantities::Quantities;
 use self::shapes::SYNONYMS;
 pub(super) use self::shapes::{BEAM, Row, SHAFT, SHAPES, SUPERELEMENT};
@@ -18,15 +16,12 @@ use crate::model::mechanism::{Body, Joint, Part};
 use crate::model::rules::composite::{GivenInertia, Welded};
 use crate::model::rules::physical::Demand;
 use crate::model::welded::groups;
-use crate::syntax::ast::{self, ItemKind, Term, Unread};
+use crate::syntax::ast::{self, Term, Unread};
 
 impl Resolver<'_> {
     pub(super) fn bodies(&mut self) -> Vec<Body> {
         let mut bodies = Vec::new();
-        for item in &self.ast.items {
-            let ItemKind::Body(body) = &item.kind else {
-                continue;
-            };
+        for body in self.ast.all::<ast::Body>() {
             let parts = self.parts(body);
             self.parts.push(parts.clone());
             bodies.extend(parts.map(|parts| Body { name: body.name.clone(), parts }));
@@ -45,13 +40,7 @@ impl Resolver<'_> {
         if welds != known || self.scope.is_ambiguous || self.ast.unread.iter().any(Unread::may_connect) {
             return;
         }
-        let names: Vec<String> = self
-            .ast
-            .items
-            .iter()
-            .filter(|item| matches!(item.kind, ItemKind::Body(_)))
-            .filter_map(|item| item.kind.name().map(Ident::to_string))
-            .collect();
+        let names: Vec<String> = self.ast.all::<ast::Body>().map(|body| body.name.to_string()).collect();
         for group in groups(names.len(), joints) {
             let bodies = group.into_iter().map(|member| {
                 let index = member.body.index();

@@ -14,7 +14,7 @@ use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Constraint, ConstraintLaw};
 use crate::model::rules::physical::Demand;
-use crate::syntax::ast::{self, ItemKind};
+use crate::syntax::ast;
 
 const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
 
@@ -102,10 +102,7 @@ const SYNONYMS: [(&str, &str); 33] = [
 impl Resolver<'_> {
     pub(super) fn constraints(&mut self) -> Vec<Constraint> {
         let mut constraints = Vec::new();
-        for item in &self.ast.items {
-            let ItemKind::Constraint(constraint) = &item.kind else {
-                continue;
-            };
+        for constraint in self.ast.all::<ast::Constraint>() {
             let (law, exerted) = self.constraint(constraint).unzip();
             self.exerted.push(exerted);
             constraints.extend(law.map(|law| Constraint { name: constraint.name.clone(), law }));

@@ -11,16 +11,14 @@ use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{Curve, CurveArgument};
 use crate::model::rules::physical::Demand;
 use crate::model::simplify;
-use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
+use crate::syntax::ast::{self, Value, ValueKind};
 use eigentol_symbolic::base::spline::Spline;
 
 impl Resolver<'_> {
     pub(super) fn curves(&mut self) {
-        for item in &self.ast.items {
-            if let ItemKind::Curve(declared) = &item.kind {
-                let curve = self.curve(declared);
-                self.curves.push(curve);
-            }
+        for declared in self.ast.all() {
+            let curve = self.curve(declared);
+            self.curves.push(curve);
         }
     }
 

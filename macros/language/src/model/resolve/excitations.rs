@@ -132,11 +132,7 @@ impl Resolver<'_> {
     }
 
     fn is_massless(&self, body: &Ident) -> bool {
-        let mut bodies = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Body(body) => Some(body),
-            _ => None,
-        });
-        let declared = bodies.find(|x| x.name == *body);
+        let declared = self.ast.all::<ast::Body>().find(|x| x.name == *body);
         declared.is_some_and(|declared| declared.terms.iter().all(|term| term.shape.word == "massless"))
     }
 
@@ -158,10 +154,7 @@ impl Resolver<'_> {
             }
             (None, Some(_)) => {
                 let (coordinate, quantity) = self.free_coordinate("force", &arguments)?;
-                let (name, other, dimension): (_, _, Expected) = match quantity {
-                    CoordinateQuantity::Angle => ("moment", "force", Expected::moment()),
-                    CoordinateQuantity::Displacement => ("force", "moment", Dimension::FORCE.into()),
-                };
+                let (name, other, dimension): (_, _, Expected) = quantity.either(("moment", "force", Expected::moment()), ("force", "moment", Dimension::FORCE.into()));
                 if let Some(value) = arguments.get(other) {
                     let message = format!("along this coordinate a `{name}` acts, not a `{other}`");
                     return self.refuse(value.extent, message);
@@ -194,10 +187,7 @@ impl Resolver<'_> {
         let coordinate = self.shaken_coordinate(joint, id, shake)?;
         let declared = self.coordinates.get(coordinate.index())?;
         let (name, quantity) = (declared.name.clone(), declared.quantity?);
-        let length = match quantity {
-            CoordinateQuantity::Angle => 0,
-            CoordinateQuantity::Displacement => 1,
-        };
+        let length = quantity.either(0, 1);
         let expected = |time: i16| match (length, time) {
             (0, 0) => Expected::angle(),
             (length, time) => Dimension::new(length, 0, time).into(),

@@ -5,17 +5,14 @@ use super::typed::{Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
-use crate::syntax::ast::{Gravity, ItemKind};
+use crate::syntax::ast::{self, Gravity};
 
 impl Resolver<'_> {
     /// The acceleration in the ground frame; zero if none is declared.
     pub(super) fn gravity(&mut self) -> Vector {
         let mut declared: Option<Vector> = None;
         let mut seen = false;
-        for item in &self.ast.items {
-            let ItemKind::Gravity(gravity) = &item.kind else {
-                continue;
-            };
+        for gravity in self.ast.all::<ast::Gravity>() {
             if seen {
                 let message = "gravity is declared twice";
                 self.diagnostics.error(gravity.keyword, message);

@@ -10,7 +10,7 @@ use crate::base::dimension::Dimension;
 use crate::base::nearest::nearest;
 use crate::model::expression::Expr;
 use crate::model::simplify::{add, divide, multiply};
-use crate::syntax::ast::{ItemKind, Material, Value, ValueKind};
+use crate::syntax::ast::{Material, Value, ValueKind};
 
 static MATERIAL: Signature<()> = Signature::new(
     "material",
@@ -23,12 +23,9 @@ static MATERIAL: Signature<()> = Signature::new(
 impl Resolver<'_> {
     /// Every material is checked, used or not.
     pub(in crate::model::resolve) fn materials(&mut self) {
-        for item in &self.ast.items {
-            if let ItemKind::Material(material) = &item.kind {
-                let properties = self.declared_material(material);
-                let name = material.name.to_string();
-                self.materials.push((name, properties));
-            }
+        for material in self.ast.all::<Material>() {
+            let properties = self.declared_material(material);
+            self.materials.push((material.name.to_string(), properties));
         }
     }
 

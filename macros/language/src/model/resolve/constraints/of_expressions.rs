@@ -22,10 +22,7 @@ impl Resolver<'_> {
     pub(super) fn coupling(&mut self, arguments: &Arguments) -> Option<(ConstraintLaw, Exerted)> {
         let (of, with) = self.coupled(arguments);
         let ratio = self.ratio(arguments, of, with);
-        let offset = of.map(|(_, quantity)| match quantity {
-            CoordinateQuantity::Angle => Expected::angle(),
-            CoordinateQuantity::Displacement => Dimension::LENGTH.into(),
-        });
+        let offset = of.map(|(_, quantity)| quantity.either(Expected::angle(), Dimension::LENGTH.into()));
         let offset = self.coefficient_or_zero(arguments, "offset", offset);
         let ((of, quantity), (with, _)) = (of?, with?);
         self.coupled_motions(arguments, of, with)?;

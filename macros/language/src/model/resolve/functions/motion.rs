@@ -118,10 +118,7 @@ impl<'a> Resolver<'a> {
 
     /// The declaration of a point.
     pub(in crate::model::resolve) fn declared_point(&self, name: &Ident) -> Option<&'a ast::Point> {
-        self.ast.items.iter().find_map(|item| match &item.kind {
-            ItemKind::Point(point) if point.name == *name => Some(point),
-            _ => None,
-        })
+        self.ast.all::<ast::Point>().find(|point| point.name == *name)
     }
 
     /// Requires that the sections of a beam stretch or shear by coordinates.
