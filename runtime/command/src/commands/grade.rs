@@ -72,13 +72,11 @@ impl Grade {
             }
             () => Verdict::of(&question.study)?,
         };
-        let mut answer = self.output.answer();
-        answer.add(&Grades {
+        self.output.show(&Grades {
             each,
             inputs: question.study.input_values().to_vec(),
             description: Shared::from(question.study.description().clone()),
         })?;
-        self.output.write(&answer)?;
         Ok(verdict)
     }
 }
