@@ -61,7 +61,6 @@ macro_rules! inlined {
     ($($(#[$attribute:meta])* $inlined:ident: $kernel:ident($($argument:ident: $kind:ty),*) -> $result:ty;)*) => {$(
         $(#[$attribute])*
         #[doc(hidden)]
-        #[allow(clippy::too_many_arguments)]
         #[inline(always)]
         fn $inlined<T: Real>(
             &self,
@@ -88,6 +87,7 @@ macro_rules! inlined {
 ///
 /// A method never fails: outside its domain (a negative length under a root, NaN as input) it returns NaN or infinity,
 /// which the solvers of this crate turn into typed errors.
+#[allow(clippy::too_many_arguments, clippy::type_complexity)]
 pub trait Mechanism: Clone + Sync + Sized {
     /// A number for each of the `N` unknowns.
     type Coordinates<T: Copy>: Array<T>;
@@ -239,7 +239,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// For a small mechanism the sines and other common terms are computed once; a large one computes the two
     /// separately.
     #[inline]
-    #[allow(clippy::type_complexity)]
     fn partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -296,7 +295,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// and in the other three vectors together. Its gradient takes four calls: real and imaginary part of `psi` with
     /// each of the real and imaginary parts of (`s^2 phi`, `s phi`, `phi`). [`Mechanism::mode_gradient`] is the case
     /// `left` = `position` = `phi`, `acceleration` = `-lambda phi`, `velocity` = 0.
-    #[allow(clippy::too_many_arguments)]
     fn pencil_gradient<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -318,7 +316,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     ) -> GradientOf<Self, T>;
 
     /// Directional derivative of [`Mechanism::mode_gradient`] along (`dq`, `du`, `db`, `dphi`, `dlambda`).
-    #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -339,7 +336,6 @@ pub trait Mechanism: Clone + Sync + Sized {
 
     /// Directional derivative of [`Mechanism::pencil_gradient`] along (`dq`, `du`, `db`, `dleft`, `dacceleration`,
     /// `dvelocity`, `dposition`).
-    #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -370,7 +366,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     }
 
     /// Directional derivative of [`Mechanism::residual_gradient`] along (`dq`, `du`, `db`, `dw`).
-    #[allow(clippy::too_many_arguments)]
     fn residual_gradient_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -462,7 +457,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     fn outputs<T: Real>(&self, q: &Self::Coordinates<T>, u: &Self::Inputs<T>, b: &Self::Design<T>) -> Self::Outputs<T>;
 
     /// Explicit partial derivatives of the outputs with respect to every coordinate, input and design variable.
-    #[allow(clippy::type_complexity)]
     fn output_partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -471,7 +465,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     ) -> (Self::Outputs<Self::Coordinates<T>>, Self::Outputs<Self::Inputs<T>>, Self::Outputs<Self::Design<T>>);
 
     /// Directional derivative of [`Mechanism::output_partials`] along (`dq`, `du`, `db`).
-    #[allow(clippy::type_complexity)]
     fn output_partials_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -528,7 +521,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// ```
     ///
     /// where `C`, `S`, `c`, `s`, `w` are the fields of [`Mechanism::forcing`] and the factors have their names.
-    #[allow(clippy::too_many_arguments)]
     fn forced_gradient<T: Real>(
         &self,
         _q: &Self::Coordinates<T>,
