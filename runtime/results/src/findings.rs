@@ -134,20 +134,6 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The text of values that are words.
-#[macro_export]
-macro_rules! worded {
-    ($type:ty { $($value:pat => $word:literal,)+ }) => {
-        impl ::core::fmt::Display for $type {
-            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
-                f.write_str(match self {
-                    $($value => $word,)+
-                })
-            }
-        }
-    };
-}
-
 /// Inside of an [`Answer`] with the fields `description` and `inputs`: they are its subject.
 #[macro_export]
 macro_rules! at_point {

@@ -31,7 +31,7 @@ pub enum SpecialKind {
     Degenerate,
 }
 
-eigentol_results::worded! {
+eigentol_solve::worded! {
     SpecialKind {
         Self::Fold => "fold",
         Self::Pitchfork { supercritical: Some(true) } => "supercritical pitchfork",

@@ -199,7 +199,7 @@ pub(crate) fn pattern(
 /// Blades with less of the energy do not count.
 const NO_SHARE: f64 = 1e-4;
 
-eigentol_results::worded! {
+crate::worded! {
     Travel {
         Self::Progressive => "progressive",
         Self::Regressive => "regressive",

@@ -161,7 +161,7 @@ impl Whirl {
     }
 }
 
-eigentol_results::worded! {
+crate::worded! {
     Kind {
         Self::Lateral => "lateral",
         Self::Torsional => "torsional",
@@ -171,7 +171,7 @@ eigentol_results::worded! {
     }
 }
 
-eigentol_results::worded! {
+crate::worded! {
     Sense {
         Self::Forward => "forward",
         Self::Backward => "backward",

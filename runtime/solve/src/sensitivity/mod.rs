@@ -63,7 +63,7 @@ pub enum Method {
     FiniteDifference,
 }
 
-eigentol_results::worded! {
+crate::worded! {
     Method {
         Self::Adjoint => "exact (adjoint)",
         Self::Explicit => "exact (explicit partials)",

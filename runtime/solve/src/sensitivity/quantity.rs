@@ -105,7 +105,7 @@ impl Quantity {
     }
 }
 
-eigentol_results::worded! {
+crate::worded! {
     Quantity {
         Self::Frequency => "frequency",
         Self::NaturalFrequency => "natural frequency",

@@ -101,7 +101,7 @@ pub enum Method {
     Resolvent(Points),
 }
 
-eigentol_results::worded! {
+eigentol_solve::worded! {
     Method {
         Self::FirstOrder => "first order",
         Self::SecondOrder => "second order",
