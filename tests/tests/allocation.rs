@@ -8,7 +8,8 @@ use std::hint::black_box;
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{
-    CurvatureKernels, Gradient, Kernels, Linear, MotionKernels, PartialMatrices, RestParts, Sizes,
+    Curvature, CurvatureKernels, Gradient, Kernels, Linear, MotionKernels, PartialMatrices, RestParts, Sizes,
+    gradient_results,
 };
 use eigentol::modes::{match_modes, modes};
 use eigentol::scalar::Instructions;
@@ -150,8 +151,10 @@ impl Buffers {
         machine.mode_gradient_into(q, u, b, q, 1.0, gradient);
         machine.pencil_gradient_into(q, u, b, [q; 4], gradient);
         machine.residual_gradient_into(q, u, b, q, gradient);
-        machine.mode_gradient_along_into(q, u, b, q, 1.0, [q, u, b, q], 1.0, gradient);
-        machine.pencil_gradient_along_into(q, u, b, [q; 4], [q, u, b], [q; 4], gradient);
+        let lists: [&[f64]; 5] = [q, u, b, q, &[1.0]];
+        machine.evaluate_curvature(Curvature::ModeGradient, &lists, &lists, &mut gradient_results(gradient));
+        let lists = [q, u, b, q, q, q, q];
+        machine.evaluate_curvature(Curvature::PencilGradient, &lists, &lists, &mut gradient_results(gradient));
         machine.residual_gradient_along_into(q, u, b, q, [q, u, b, q], gradient);
         black_box(machine.whirl(q, u, b, q, q));
         black_box(machine.violation(u, b));

@@ -2,8 +2,7 @@
 
 use eigentol_results::numbers::{as_written, counted, heading, in_unit, number, rough, with_unit};
 use eigentol_results::relevance::{largest, names, of_its_kind, unless_rounding};
-use eigentol_results::title::{title, title_along};
-use eigentol_results::{Answer, Columns, Findings, Listed};
+use eigentol_results::{Answer, Columns, Findings, Listed, Subject};
 
 use crate::{Description, Equilibrium, Input, Role};
 
@@ -38,7 +37,7 @@ pub fn place(d: &Description, input: Input, value: f64) -> String {
 /// The state where something happens; `what` says so with the place.
 pub(crate) fn happening(at: &Equilibrium, input: Input, value: f64, what: impl FnOnce(String) -> String) -> Findings {
     let d = &at.description;
-    let mut said = Findings::titled(format!("{}: {}", title_along(d, &at.inputs, input), what(place(d, input, value))));
+    let mut said = Subject::along(d, &at.inputs, input).titled(what(place(d, input, value)));
     said.quote(at.findings());
     said
 }
@@ -70,12 +69,7 @@ pub(crate) fn together<T: Listed, R>(all: &[T], table: Option<Columns<'_, R>>, o
     let (Some(of), Some(table)) = (of, table) else {
         return Findings::titled(format!("no {one}s"));
     };
-    let title = match of.varied {
-        Some(input) => title_along(of.description, of.inputs, input),
-        None => title(of.description, of.inputs),
-    };
-    let count = counted(all.len(), one);
-    let mut said = Findings::titled(format!("{title}: {count}"));
+    let mut said = of.titled(counted(all.len(), one));
     said.columns(table);
     said
 }

@@ -3,7 +3,6 @@
 
 use eigentol_results::numbers::{as_written, given, number, rough};
 use eigentol_results::shares::mostly;
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use crate::algebra::Vector;
@@ -64,8 +63,7 @@ impl Answer for EventMap {
     fn findings(&self) -> Findings {
         let d = &self.description;
         let over = &d.design[self.over.index()];
-        let title = title_along(d, &self.inputs, self.input);
-        let mut said = Findings::titled(format!("{title}: events over {}", over.name));
+        let mut said = self.titled(format_args!("events over {}", over.name));
         let rows: Vec<(f64, &EventTolerance)> = self.events().collect();
         let mut table = Columns::new("event map", &rows);
         let value = |row: &(f64, &EventTolerance)| Some(as_written(row.0, &over.unit));

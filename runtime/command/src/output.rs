@@ -6,6 +6,7 @@ use std::path::Path;
 
 use clap::Args;
 use eigentol_tables::Table;
+use serde::Serialize;
 
 use crate::answer::{Answer, Form};
 use crate::destination::{Destination, is_same};
@@ -102,6 +103,13 @@ impl Output {
     /// An empty answer in this format.
     pub(crate) fn answer(&self) -> Answer {
         Answer::new(self.form(), self.page())
+    }
+
+    /// Writes one result.
+    pub(crate) fn show<R: eigentol_tables::Answer + Serialize>(&self, result: &R) -> Result<(), Failure> {
+        let mut answer = self.answer();
+        answer.add(result)?;
+        self.write(&answer)
     }
 
     /// Characters on a line of text: as many as the terminal has, or as `COLUMNS` says.

@@ -1,12 +1,9 @@
 //! Interpreted implementations of the kernel tables.
 
-use std::array::from_fn;
-use std::slice::from_ref;
-
 use eigentol::kernels::{
     BatchKernels, BatchLinear, BatchPartials, BatchPoint, Curvature, CurvatureKernels, Directional, DirectionalKernels,
-    Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels, PartialMatrices, PencilAlong,
-    PictureKernels, Second, Sizes, gradient_results, linear_results,
+    Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, Second,
+    Sizes, gradient_results, linear_results,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, PictureInfo, PoseMargin, Shared, Violation};
@@ -81,7 +78,7 @@ fn run_along(tape: &Option<Tape>, arguments: &[&[f64]], direction: &[&[f64]], to
 
 /// Runs a tape at each of several points and copies the derivatives of its results, each along a direction of its own, side
 /// by side in the vectors of the processor.
-fn run_along_each<const N: usize>(tape: &Option<Tape>, points: &[[[&[f64]; N]; 2]], gradients: &mut [Gradient]) {
+fn run_along_each(tape: &Option<Tape>, points: &[[&[&[f64]]; 2]], gradients: &mut [Gradient]) {
     for (points, gradients) in points.chunks(WIDTH).zip(gradients.chunks_mut(WIDTH)) {
         let (Some(tape), [first, _, ..]) = (tape, points) else {
             for ([arguments, direction], gradient) in points.iter().zip(gradients) {
@@ -92,11 +89,13 @@ fn run_along_each<const N: usize>(tape: &Option<Tape>, points: &[[[&[f64]; N]; 2
         let lanes = |part: usize, list: usize, k: usize| {
             Batch::from_fn(|lane| points.get(lane).unwrap_or(first)[part][list][k])
         };
-        let moved: [Vec<Dual<Batch>>; N] = from_fn(|list| {
+        let moved = first[0].iter().enumerate().map(|(list, values)| {
             let number = |k| Dual { value: lanes(0, list, k), slope: lanes(1, list, k) };
-            (0..first[0][list].len()).map(number).collect()
+            (0..values.len()).map(number).collect()
         });
-        along_each(tape, &moved.each_ref().map(Vec::as_slice), |registers| {
+        let moved: Vec<Vec<Dual<Batch>>> = moved.collect();
+        let moved: Vec<&[Dual<Batch>]> = moved.iter().map(Vec::as_slice).collect();
+        along_each(tape, &moved, |registers| {
             for (lane, gradient) in gradients.iter_mut().enumerate() {
                 for (to, places) in gradient_results(gradient).into_iter().zip(&tape.results) {
                     for (to, register) in to.iter_mut().zip(places) {
@@ -270,17 +269,8 @@ impl DirectionalKernels for Interpreted {
         run_along(self.tape(kernel.into()), arguments, direction, results);
     }
 
-    fn residual_gradients_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        directions: &[[&[f64]; 4]],
-        gradients: &mut [Gradient],
-    ) {
-        let points: Vec<_> = directions.iter().map(|direction| [[q, u, b, w], *direction]).collect();
-        run_along_each(self.tape(Kernel::ResidualGradient), &points, gradients);
+    fn evaluate_along_each(&self, kernel: Directional, points: &[[&[&[f64]]; 2]], gradients: &mut [Gradient]) {
+        run_along_each(self.tape(kernel.into()), points, gradients);
     }
 }
 
@@ -295,32 +285,8 @@ impl CurvatureKernels for Interpreted {
         run_along(self.tape(kernel.into()), arguments, direction, results);
     }
 
-    fn mode_gradients_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        directions: &[([&[f64]; 4], f64)],
-        gradients: &mut [Gradient],
-    ) {
-        let at: [&[f64]; 5] = [q, u, b, phi, &[lambda]];
-        let along = directions.iter().map(|([dq, du, db, dphi], rate)| [at, [*dq, du, db, dphi, from_ref(rate)]]);
-        run_along_each(self.tape(Kernel::ModeGradient), &along.collect::<Vec<_>>(), gradients);
-    }
-
-    fn pencil_gradients_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        points: &[PencilAlong<'_>],
-        gradients: &mut [Gradient],
-    ) {
-        let lists = |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
-        let points = points.iter().map(|own| [lists([q, u, b], own.vectors), lists(own.direction, own.changes)]);
-        run_along_each(self.tape(Kernel::PencilGradient), &points.collect::<Vec<_>>(), gradients);
+    fn evaluate_curvature_each(&self, kernel: Curvature, points: &[[&[&[f64]]; 2]], gradients: &mut [Gradient]) {
+        run_along_each(self.tape(kernel.into()), points, gradients);
     }
 }
 

@@ -7,6 +7,7 @@ use eigentol_contract::{Description, Input, Shared};
 use crate::columns::Columns;
 use crate::grid::{Grid, lines};
 use crate::table::Table;
+use crate::title::title;
 
 /// A result that describes itself.
 ///
@@ -21,6 +22,14 @@ pub trait Answer {
 
     /// What it says: a title, tables and sentences.
     fn findings(&self) -> Findings;
+
+    /// The beginning of what it says: mechanism and operating point, and what is computed there.
+    fn titled(&self, what: impl fmt::Display) -> Findings {
+        match self.subject() {
+            Some(of) => of.titled(what),
+            None => Findings::titled(what.to_string()),
+        }
+    }
 
     /// Tables as large as a run, such as its samples, which no text shows or counts.
     fn details(&self) -> Vec<Table> {
@@ -113,6 +122,26 @@ impl<'a> Subject<'a> {
     pub fn along(description: &'a Shared<Description>, inputs: &'a [f64], varied: Input) -> Self {
         Self { varied: Some(varied), ..Self::at(description, inputs) }
     }
+
+    /// `Rotor at speed = 3000 rpm, load = 2 N`. An input that varies has no value.
+    pub fn title(&self) -> String {
+        title(self.description, self.inputs, self.varied)
+    }
+
+    /// A title, and what is computed there.
+    pub fn titled(&self, what: impl fmt::Display) -> Findings {
+        Findings::titled(format!("{}: {what}", self.title()))
+    }
+}
+
+/// Inside of an [`Answer`] with the fields `description` and `inputs`: they are its subject.
+#[macro_export]
+macro_rules! at_point {
+    () => {
+        fn subject(&self) -> Option<$crate::Subject<'_>> {
+            Some($crate::Subject::at(&self.description, &self.inputs))
+        }
+    };
 }
 
 /// What a result says: titles, tables and sentences, in order. As text, the width of the format is that of the page:

@@ -83,6 +83,15 @@ macro_rules! setters {
     )*};
 }
 
+macro_rules! finders {
+    ($($(#[$doc:meta])* $find:ident: $handle:ident, $kind:literal, $list:ident;)*) => {$(
+        $(#[$doc])*
+        pub fn $find(&self, name: &str) -> Result<$handle<M>, Error> {
+            self.find($kind, name, self.description().$list.iter().map(|info| &info.name)).map($handle::new)
+        }
+    )*};
+}
+
 impl<M: Kernels> Study<M> {
     /// Creates a study of `mechanism` at its nominal design.
     #[must_use]
@@ -343,59 +352,46 @@ impl<M: Kernels> Study<M> {
         &self.settings.description
     }
 
-    /// Looks up a coordinate, or another unknown, by name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], which lists the names that exist.
-    pub fn find_coordinate(&self, name: &str) -> Result<Coordinate<M>, Error> {
-        let names = self.description().coordinates.iter().map(|info| &info.name);
-        self.find("coordinate", name, names).map(Coordinate::new)
-    }
+    finders! {
+        /// Looks up a coordinate, or another unknown, by name.
+        ///
+        /// # Errors
+        /// [`Error::UnknownName`], which lists the names that exist.
+        find_coordinate: Coordinate, "coordinate", coordinates;
 
-    /// Looks up an input by name, for names known only at run time.
-    #[doc = include_str!("example.txt")]
-    /// let speed = study.find_input("omega")?;
-    /// let study = study.input(speed, 4.0);
-    /// assert_eq!(study.input_values(), [4.0]);
-    ///
-    /// let error = study.find_input("speed").unwrap_err();
-    /// assert_eq!(error.to_string(), "`Pendulum` has no input `speed`: it has `omega`");
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// [`Error::UnknownName`], which lists the names that exist.
-    pub fn find_input(&self, name: &str) -> Result<Input<M>, Error> {
-        let names = self.description().inputs.iter().map(|info| &info.name);
-        self.find("input", name, names).map(Input::new)
-    }
+        /// Looks up an input by name, for names known only at run time.
+        #[doc = include_str!("example.txt")]
+        /// let speed = study.find_input("omega")?;
+        /// let study = study.input(speed, 4.0);
+        /// assert_eq!(study.input_values(), [4.0]);
+        ///
+        /// let error = study.find_input("speed").unwrap_err();
+        /// assert_eq!(error.to_string(), "`Pendulum` has no input `speed`: it has `omega`");
+        #[doc = include_str!("end.txt")]
+        /// # Errors
+        /// [`Error::UnknownName`], which lists the names that exist.
+        find_input: Input, "input", inputs;
 
-    /// Looks up a design variable by name.
-    #[doc = include_str!("example.txt")]
-    /// let length = study.find_design("l")?;
-    /// assert_eq!(length, Pendulum::l);
-    #[doc = include_str!("end.txt")]
-    /// # Errors
-    /// [`Error::UnknownName`], which lists the names that exist.
-    pub fn find_design(&self, name: &str) -> Result<DesignVariable<M>, Error> {
-        let names = self.description().design.iter().map(|info| &info.name);
-        self.find("design variable", name, names).map(DesignVariable::new)
-    }
+        /// Looks up a design variable by name.
+        #[doc = include_str!("example.txt")]
+        /// let length = study.find_design("l")?;
+        /// assert_eq!(length, Pendulum::l);
+        #[doc = include_str!("end.txt")]
+        /// # Errors
+        /// [`Error::UnknownName`], which lists the names that exist.
+        find_design: DesignVariable, "design variable", design;
 
-    /// Looks up an output by name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], which lists the names that exist.
-    pub fn find_output(&self, name: &str) -> Result<Output<M>, Error> {
-        let names = self.description().outputs.iter().map(|info| &info.name);
-        self.find("output", name, names).map(Output::new)
-    }
+        /// Looks up an output by name.
+        ///
+        /// # Errors
+        /// [`Error::UnknownName`], which lists the names that exist.
+        find_output: Output, "output", outputs;
 
-    /// Looks up an excitation by name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], which lists the names that exist.
-    pub fn find_excitation(&self, name: &str) -> Result<Excitation<M>, Error> {
-        let names = self.description().excitations.iter();
-        self.find("excitation", name, names.map(|info| &info.name)).map(Excitation::new)
+        /// Looks up an excitation by name.
+        ///
+        /// # Errors
+        /// [`Error::UnknownName`], which lists the names that exist.
+        find_excitation: Excitation, "excitation", excitations;
     }
 
     fn find<'a>(

@@ -24,9 +24,8 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Events, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
         let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        Along::plain(&self.settings, &self.mechanism).events(range, &lines)
+        Along::plain(&self.settings, &self.mechanism).events(self.range(input, low, high)?, &lines)
     }
 
     /// Finds the first critical value of an input between `low` and `high` ([`sweep::critical_state`]).
@@ -43,8 +42,7 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<CriticalState, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
-        Along::plain(&self.settings, &self.mechanism).critical_state(range)
+        Along::plain(&self.settings, &self.mechanism).critical_state(self.range(input, low, high)?)
     }
 
     /// Like [`Study::critical_state`], with the sensitivity and spread of the value ([`sweep::critical_tolerance`]).
@@ -59,7 +57,7 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let range = self.range(input, low, high)?;
         Along::deviating(&self.settings, &self.mechanism)?.critical_tolerance(range)
     }
 
@@ -78,7 +76,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let range = self.range(input, low, high)?;
         Along::plain(&self.settings, &self.mechanism).crossings(range, Some(line.into()))
     }
 
@@ -97,7 +95,7 @@ impl<M: DirectionalKernels> Study<M> {
         high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let range = self.range(input, low, high)?;
         Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, Some(line.into()))
     }
 
@@ -115,7 +113,7 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let range = self.range(input, low, high)?;
         Along::plain(&self.settings, &self.mechanism).crossings(range, None)
     }
 
@@ -131,7 +129,7 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let range = self.range(input, low, high)?;
         Along::deviating(&self.settings, &self.mechanism)?.crossing_tolerances(range, None)
     }
 }

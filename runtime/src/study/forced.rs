@@ -98,18 +98,17 @@ impl<M: CurvatureKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<Peaks>, Error> {
-        let low = self.settings.si(input.any().into(), low.into())?;
-        let high = self.settings.si(input.any().into(), high.into())?;
+        let Range { input, low, high, .. } = self.range(input, low, high)?;
         let table = Table::<dyn CurvatureKernels>::deviating(&self.settings, &self.mechanism)?;
         let point = (&self.settings.inputs[..], &table.design[..]);
-        let (start, following) = table.way(table.plain, (input.any(), low))?;
+        let (start, following) = table.way(table.plain, (input, low))?;
         let tolerances = self.settings.tolerances()?;
         peaks::peaks(
             table.kernels(),
             point,
             &start,
             following,
-            (Range::new(input.any(), low, high), vibrations),
+            (Range::new(input, low, high), vibrations),
             Some(tolerances),
             self.settings.watch(),
         )

@@ -141,7 +141,7 @@ impl<M: DirectionalKernels> Study<M> {
         over: DesignVariable<M>,
         values: &[f64],
     ) -> Result<EventMap, Error> {
-        let range = self.settings.range(input.any(), low.into(), high.into())?;
+        let range = self.range(input, low, high)?;
         let lines: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
         let ends = [range.low, range.high];
         let axes = Axes::new(input.any(), &ends, &lines);
@@ -240,10 +240,16 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Continuation, Error> {
-        let input = input.any();
-        let low = self.settings.si(input.into(), low.into())?;
-        let high = self.settings.si(input.into(), high.into())?;
+        let Range { input, low, high, .. } = self.range(input, low, high)?;
         Ok(Continuation::new(input, low, high))
+    }
+}
+
+impl<M: Kernels> Study<M> {
+    pub(super) fn range(&self, input: Input<M>, low: impl Into<Value>, high: impl Into<Value>) -> Result<Range, Error> {
+        let input = input.any();
+        let [low, high] = [low.into(), high.into()].map(|end| self.settings.si(input.into(), end));
+        Ok(Range::new(input, low?, high?).steps(self.settings.steps))
     }
 }
 
@@ -362,11 +368,6 @@ fn spread(
 }
 
 impl Settings {
-    pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {
-        let (low, high) = (self.si(input.into(), low)?, self.si(input.into(), high)?);
-        Ok(Range::new(input, low, high).steps(self.steps))
-    }
-
     /// Converts values of an input to SI.
     pub(super) fn values_si(&self, input: Input, values: &[impl Into<Value> + Copy]) -> Result<Vec<f64>, Error> {
         values.iter().map(|&value: &_| self.si(input.into(), Into::into(value))).collect()

@@ -422,6 +422,16 @@ pub enum CoordinateQuantity {
 }
 
 impl CoordinateQuantity {
+    /// The first of an angle, the second of a displacement.
+    pub fn either<T>(self, angle: T, displacement: T) -> T {
+        match self {
+            Self::Angle => angle,
+            Self::Displacement => displacement,
+        }
+    }
+}
+
+impl CoordinateQuantity {
     /// SI unit.
     pub fn unit(self) -> &'static str {
         match self {

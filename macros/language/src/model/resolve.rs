@@ -52,7 +52,7 @@ use super::mechanism::{
 };
 use super::rules::{attributes, physical, presence};
 use crate::base::diagnostics::Diagnostics;
-use crate::syntax::ast::{Ast, ItemKind, Unread};
+use crate::syntax::ast::{self as syntax, Ast, ItemKind, Unread};
 
 /// The outcome of resolving a declaration.
 #[derive(Debug)]
@@ -204,14 +204,15 @@ fn items(resolver: &mut Resolver<'_>) -> Items {
 
 /// Whether every declared item has become an entry.
 fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
-    mechanism.inputs.len() == count(ast, |kind| matches!(kind, ItemKind::Input(_)))
-        && mechanism.design.len() == count(ast, |kind| matches!(kind, ItemKind::Design(_)))
-        && mechanism.curves.len() == count(ast, |kind| matches!(kind, ItemKind::Curve(_)))
+    mechanism.inputs.len() == ast.all::<syntax::Input>().count()
+        && mechanism.design.len() == ast.all::<syntax::Design>().count()
+        && mechanism.curves.len() == ast.all::<syntax::Curve>().count()
         && mechanism.constants.len() >= count(ast, |kind| matches!(kind, ItemKind::Let(_)))
-        && mechanism.points.len() == count(ast, |kind| matches!(kind, ItemKind::Point(_)))
-        && mechanism.forces.iter().filter(|force| !force.of_every).count() == count(ast, is_force)
+        && mechanism.points.len() == ast.all::<syntax::Point>().count()
+        && mechanism.forces.iter().filter(|force| !force.of_every).count()
+            == ast.all::<syntax::Force>().filter(|force| !force.is_harmonic()).count()
         && mechanism.excitations.len() == excitations::declared(ast)
-        && mechanism.steady.len() == count(ast, |kind| matches!(kind, ItemKind::Steady(_)))
+        && mechanism.steady.len() == ast.all::<syntax::Named>().count()
         && mechanism.outputs.len() == count(ast, |kind| matches!(kind, ItemKind::Output(_)))
         && is_connected(ast, mechanism)
 }
@@ -225,17 +226,13 @@ fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
     let roots = mechanism.shafts.len() + mechanism.superelements.len();
     let (bodies, joints) = (mechanism.bodies.len(), mechanism.joints.len());
     !ast.unread.iter().any(Unread::may_connect)
-        && bodies == count(ast, |kind| matches!(kind, ItemKind::Body(_))) + stations - roots
-        && joints == count(ast, |kind| matches!(kind, ItemKind::Joint(_))) + stations
+        && bodies == ast.all::<syntax::Body>().count() + stations - roots
+        && joints == ast.all::<syntax::Joint>().count() + stations
         && mechanism.coordinates.len() == coordinates::declared(ast).len() + of_beams + of_stations
         && (beams::declared::number_of(ast, "beam") == 0) == mechanism.beams.is_empty()
         && beams::declared::number_of(ast, "shaft") == mechanism.shafts.len()
         && beams::declared::number_of(ast, "superelement") == mechanism.superelements.len()
-        && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
-}
-
-fn is_force(kind: &ItemKind) -> bool {
-    matches!(kind, ItemKind::Force(force) if !force.is_harmonic())
+        && mechanism.constraints.len() == ast.all::<syntax::Constraint>().count()
 }
 
 fn count(ast: &Ast, is: fn(&ItemKind) -> bool) -> usize {

@@ -25,6 +25,13 @@ pub struct Ast {
     pub files: Vec<(String, String)>,
 }
 
+impl Ast {
+    /// Everything that items of one kind declare, in order.
+    pub fn all<'a, T: Declaration + 'a>(&'a self) -> impl Iterator<Item = &'a T> + Clone {
+        self.items.iter().filter_map(|item| T::of(&item.kind))
+    }
+}
+
 /// The instances of parts in a declaration. Any two are equal, as positions are.
 #[derive(Clone, Debug, Default)]
 pub struct Uses(pub Vec<Use>);
@@ -139,6 +146,42 @@ pub enum ItemKind {
     Steady(Named),
     /// `output NAME = VALUE;` or `output NAME: UNIT = VALUE;`
     Output(Stated),
+}
+
+/// What items of one kind declare.
+pub trait Declaration {
+    /// The declaration, if the item is of this kind.
+    fn of(kind: &ItemKind) -> Option<&Self>;
+}
+
+macro_rules! declarations {
+    ($($kind:ident($content:ty),)+) => {$(
+        impl Declaration for $content {
+            fn of(kind: &ItemKind) -> Option<&Self> {
+                match kind {
+                    ItemKind::$kind(declared) => Some(declared),
+                    _ => None,
+                }
+            }
+        }
+    )+};
+}
+
+declarations! {
+    Input(Input),
+    Design(Design),
+    Curve(Curve),
+    Gravity(Gravity),
+    Body(Body),
+    Joint(Joint),
+    Point(Point),
+    Force(Force),
+    Every(Every),
+    Material(Material),
+    Constraint(Constraint),
+    Correlated(Correlated),
+    Cyclic(Cyclic),
+    Steady(Named),
 }
 
 impl ItemKind {

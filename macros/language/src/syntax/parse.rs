@@ -26,7 +26,7 @@ use syn::parse::Parser as _;
 use self::words::{COMMENT, DECIMAL_POINT, KEYWORDS};
 use super::ast::{Ast, Item, ItemKind, Unread, Use, Uses, Value};
 use super::scope::{Content, Parts, Scope};
-use super::tokens::{Parsed, Tokens};
+use super::tokens::{Parsed, Tokens, helped};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::joined;
 use crate::base::quoted::{placed, quoted};
@@ -78,7 +78,7 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     if tokens.word("mechanism").is_none() {
         let help = if tokens.peek_word("use") { ALONE } else { "declare it as `pub mechanism Pendulum { ... }`" };
         let expected = tokens.expected::<Ast>("`mechanism NAME { ... }`");
-        return expected.map_err(|diagnostic| Box::new(diagnostic.with_help(help)));
+        return expected.map_err(helped(help));
     }
     let (attributes, visibility) = match attributes_and_visibility.parse2(head) {
         Ok(read) => read,

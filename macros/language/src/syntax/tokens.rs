@@ -12,6 +12,25 @@ use crate::base::span::Extent;
 /// The result of parsing; the error is boxed to keep the success case small.
 pub(super) type Parsed<T> = Result<T, Box<Diagnostic>>;
 
+/// A mistake instead of what was to be read.
+pub(super) fn mistake<T>(at: impl Into<Extent>, message: impl Into<String>) -> Parsed<T> {
+    Err(Box::new(Diagnostic::new(at, message)))
+}
+
+/// [`mistake`] with advice on how to fix it.
+pub(super) fn mistake_with_help<T>(
+    at: impl Into<Extent>,
+    message: impl Into<String>,
+    help: impl Into<String>,
+) -> Parsed<T> {
+    Err(Box::new(Diagnostic::new(at, message).with_help(help)))
+}
+
+/// Adds advice to a mistake.
+pub(super) fn helped(help: &str) -> impl Fn(Box<Diagnostic>) -> Box<Diagnostic> + Copy {
+    move |error| Box::new(error.with_help(help))
+}
+
 /// A position in a list of tokens.
 #[derive(Clone, Copy)]
 pub(super) struct Tokens<'a> {
@@ -67,7 +86,7 @@ impl<'a> Tokens<'a> {
             Some(text) => format!("expected {what}, found `{text}`"),
             None => format!("expected {what}"),
         };
-        Err(Box::new(Diagnostic::new(self.span(), message)))
+        mistake(self.span(), message)
     }
 
     fn describe_next(&self) -> Option<String> {
@@ -214,7 +233,7 @@ impl<'a> Tokens<'a> {
         // This keyword of edition 2024 is still a name for syn.
         if !is_free || text.starts_with("r#") || text == "gen" {
             let message = format!("`{text}` cannot be a name: Rust reserves it");
-            return Err(Box::new(Diagnostic::new(&ident, message)));
+            return mistake(&ident, message);
         }
         self.ident();
         Ok(ident)

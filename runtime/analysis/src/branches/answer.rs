@@ -4,7 +4,6 @@ use std::{ptr, slice};
 
 use eigentol_results::numbers::{converted, heading, number, optional};
 use eigentol_results::relevance::{EVERYTHING, shown};
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Grid, Subject, Table, displayed};
 
 use super::{Branch, BranchEnd, BranchPoint, Branches, SpecialPoint};
@@ -32,10 +31,9 @@ impl Answer for Branch {
     }
 
     fn findings(&self) -> Findings {
-        let (title, count) = (self.title(), self.points.len());
+        let count = self.points.len();
         let [first, last] = &self.ends;
-        let mut said =
-            Findings::titled(format!("{title}: branch of {count} equilibria; begins: {first}; ends: {last}"));
+        let mut said = self.titled(format_args!("branch of {count} equilibria; begins: {first}; ends: {last}"));
         let branches = slice::from_ref(self);
         let (moving, points) = (moving(self, branches), points(1, branches));
         let rows = self.rows_shown();
@@ -66,8 +64,8 @@ impl Answer for Branches {
         let Some(one) = self.branches.first() else {
             return Findings::titled("no branches".to_owned());
         };
-        let (title, count) = (one.title(), self.branches.len());
-        let mut said = Findings::titled(format!("{title}: {count} {}", branches_word(count)));
+        let count = self.branches.len();
+        let mut said = self.titled(format_args!("{count} {}", branches_word(count)));
         let moving = moving(one, &self.branches);
         said.text(stretches(one, &self.branches, &moving));
         moving.rest(&mut said);
@@ -120,10 +118,6 @@ impl Branch {
     /// The inputs, SI; all but the varied one keep their values.
     fn inputs(&self) -> &[f64] {
         self.points.first().map_or(&[], |point| &point.equilibrium.inputs)
-    }
-
-    fn title(&self) -> String {
-        title_along(&self.description, self.inputs(), self.input)
     }
 
     /// Some points at equal intervals, and both sides of each change of stability.

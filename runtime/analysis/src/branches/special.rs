@@ -1,7 +1,5 @@
 //! Points of a branch at which `Khat` is singular.
 
-use core::fmt;
-
 use super::curve::{ContinuationFailure, Curve};
 use super::curve_point::symmetric_to_rounding;
 use super::local_scaling::{CurvePosition, Frame};
@@ -33,16 +31,14 @@ pub enum SpecialKind {
     Degenerate,
 }
 
-impl fmt::Display for SpecialKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Fold => "fold",
-            Self::Pitchfork { supercritical: Some(true) } => "supercritical pitchfork",
-            Self::Pitchfork { supercritical: Some(false) } => "subcritical pitchfork",
-            Self::Pitchfork { supercritical: None } => "pitchfork",
-            Self::Transcritical => "transcritical",
-            Self::Degenerate => "degenerate",
-        })
+eigentol_solve::worded! {
+    SpecialKind {
+        Self::Fold => "fold",
+        Self::Pitchfork { supercritical: Some(true) } => "supercritical pitchfork",
+        Self::Pitchfork { supercritical: Some(false) } => "subcritical pitchfork",
+        Self::Pitchfork { supercritical: None } => "pitchfork",
+        Self::Transcritical => "transcritical",
+        Self::Degenerate => "degenerate",
     }
 }
 

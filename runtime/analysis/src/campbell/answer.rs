@@ -2,7 +2,6 @@
 
 use eigentol_results::numbers::{converted, frequency_symbol, given, given_in, number, optional, or_dash, rough};
 use eigentol_results::relevance::{EVERYTHING, shown};
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
 
 use super::{Campbell, CampbellMode, CampbellPoint};
@@ -59,8 +58,7 @@ impl Answer for Campbell {
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title_along(d, &self.inputs, self.input);
-        let mut said = Findings::titled(format!("{title}: Campbell diagram"));
+        let mut said = self.titled("Campbell diagram");
         not_reached(&mut said, self.unreached);
         said.data(mode_table(d, self.input, &self.points));
         self.events(&mut said);

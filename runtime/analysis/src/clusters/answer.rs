@@ -3,8 +3,7 @@ use core::fmt;
 use eigentol_results::grid::cells;
 use eigentol_results::naming::named;
 use eigentol_results::numbers::{converted, heading, in_unit, optional, or_dash, rough, rough_in, short};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Grid, Listed, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, Grid, Listed, Subject, at_point, displayed};
 
 use super::tolerance::ClusterTolerance;
 use super::{ClusterSpread, DirectionalDerivatives, SortedSpread};
@@ -17,9 +16,7 @@ use crate::tolerance::{Spread, Statistics, statistics};
 impl Listed for ClusterTolerance {
     const KIND: &'static str = "clusters";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(all: &[Self]) -> Findings {
         let mut said = Findings::default();
@@ -95,18 +92,18 @@ impl ClusterTolerance {
     /// What its text says.
     #[doc(hidden)]
     pub fn said(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
+        let of = Subject::at(&self.description, &self.inputs);
         let modes = named(&self.modes);
         let spread = match &self.spread {
             Ok(spread) => spread,
             Err(_) if self.defective() => {
-                return Findings::titled(format!(
-                    "{title}: merged into a defective eigenvalue: {modes}. It splits as the square root of any change and \
+                return of.titled(format_args!(
+                    "merged into a defective eigenvalue: {modes}. It splits as the square root of any change and \
                      has no sigma"
                 ));
             }
             Err(error) => {
-                return Findings::titled(format!("{title}: {modes} form a cluster: {error}"));
+                return of.titled(format_args!("{modes} form a cluster: {error}"));
             }
         };
         let are = if self.equal {
@@ -115,7 +112,7 @@ impl ClusterTolerance {
             format!("form a cluster, {} standard deviations apart", short(self.distance))
         };
         let samples = spread.samples;
-        let mut said = Findings::titled(format!("{title}: {modes} {are}; {samples} samples"));
+        let mut said = of.titled(format_args!("{modes} {are}; {samples} samples"));
         said.text(self.sorted(spread));
         if spread.unstable > 0 {
             let unstable = spread.unstable;
@@ -184,14 +181,11 @@ fn without(said: &mut Findings, spread: &ClusterSpread) {
 impl Answer for DirectionalDerivatives {
     const KIND: &'static str = "directional derivatives";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
         let modes = named(&self.modes);
-        let mut said = Findings::titled(format!("{title}: derivatives of {modes} in a direction"));
+        let mut said = self.titled(format_args!("derivatives of {modes} in a direction"));
         let unit = match self.family {
             Family::Undamped => "1/s^2",
             Family::General => "1/s",

@@ -3,8 +3,7 @@
 use eigentol_results::naming::{capital, named};
 use eigentol_results::numbers::{converted, heading, number, short};
 use eigentol_results::relevance::{RELEVANT, largest, names};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::{Change, Convergence};
 
@@ -14,14 +13,11 @@ displayed!(Convergence);
 impl Answer for Convergence {
     const KIND: &'static str = "convergence";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: changes with more coordinates of each component of a beam"));
+        let mut said = self.titled("changes with more coordinates of each component of a beam");
         let mut table = Columns::new("convergence", &self.changes);
         table.words("answer", &|row| Some(row.answer.name(d)));
         table.words("unit", &|row| Some(row.answer.unit(d).symbol.to_string()));

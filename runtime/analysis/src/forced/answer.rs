@@ -1,8 +1,7 @@
 //! Forced vibration at one operating point as text and tables.
 
 use eigentol_results::numbers::{converted, frequency_in, in_unit as number_in, number, short, with_unit};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, Subject, at_point, displayed};
 
 use super::{ForcedCurvature, ForcedResponse, ForcedSensitivities, Harmonic, Measure, Share};
 use crate::second_order::{Pair, names, pairs};
@@ -21,13 +20,11 @@ pub(crate) const CONVENTIONS: &str =
 impl Answer for ForcedResponse {
     const KIND: &'static str = "forced response";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let mut said = Findings::titled(format!("{}: forced vibration", title(d, &self.inputs)));
+        let mut said = self.titled("forced vibration");
         let rows = self.rows();
         let mut table = Columns::new("forced response", &rows);
         of_harmonic(&mut table, d, &|row| row.harmonic);
@@ -279,8 +276,7 @@ impl Answer for ForcedCurvature {
     fn findings(&self) -> Findings {
         let of = &self.first.response;
         let d = &of.description;
-        let title = title(d, &of.inputs);
-        let mut said = Findings::titled(format!("{title}: second derivatives of forced vibration"));
+        let mut said = self.titled("second derivatives of forced vibration");
         let (pairs, inputs) = (pairs(&crate::variables::variables(d)), d.inputs.len());
         let rows = of.rows();
         let second = |row: &Row<'_>| {

@@ -3,8 +3,7 @@
 use eigentol_results::columns::Columns;
 use eigentol_results::numbers::{frequency_in, number, rough};
 use eigentol_results::relevance::largest;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Findings, Subject, displayed};
+use eigentol_results::{Answer, Findings, at_point, displayed};
 
 use super::{BladePeak, Mistuning};
 
@@ -14,14 +13,11 @@ displayed!(Mistuning);
 impl Answer for Mistuning {
     const KIND: &'static str = "mistuning";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: engine order {} on `{}`", self.order, self.ring));
+        let mut said = self.titled(format_args!("engine order {} on `{}`", self.order, self.ring));
         let name = |blade: usize| format!("{}[{blade}]", self.ring);
         let factors = [("as they are", Some(self.factor))].into_iter().chain(
             [("median", 0.5), ("90 %", 0.9), ("99 %", 0.99), ("highest", 1.0)]

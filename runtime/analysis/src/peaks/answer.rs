@@ -3,7 +3,6 @@
 use std::slice;
 
 use eigentol_results::numbers::{converted, given, heading, number, rough, short};
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, Table, displayed};
 
 use super::{HalfPower, Moving, Peak, Peaks};
@@ -119,8 +118,7 @@ impl Peaks {
 
     /// The text about the peaks of one vibration.
     fn say(&self, said: &mut Findings) {
-        let title = title_along(&self.description, &self.inputs, self.range.input);
-        said.join(Findings::titled(format!("{title}: peaks of the vibration, {}", self.name())));
+        said.join(self.titled(format_args!("peaks of the vibration, {}", self.name())));
         let rows: Vec<Row<'_>> = self.rows().collect();
         said.text(self.columns(&rows).finish().1);
         if self.peaks.is_empty() {

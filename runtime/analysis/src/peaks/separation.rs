@@ -3,7 +3,6 @@
 use std::slice;
 
 use eigentol_results::numbers::{converted, heading, number, percent, rough};
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
 
 use super::{Moving, Peak, Peaks};
@@ -100,11 +99,8 @@ impl Listed for Separation {
         };
         for margins in all {
             let of = &margins.peaks;
-            let title = title_along(&of.description, &of.inputs, of.range.input);
-            said.join(Findings::titled(format!(
-                "{title}: separation margins of {}, in the manner of API 617",
-                of.name()
-            )));
+            let what = format_args!("separation margins of {}, in the manner of API 617", of.name());
+            said.join(margins.titled(what));
             let rows: Vec<Row<'_>> = margins.rows().collect();
             said.text(margins.columns(&rows).finish().1);
         }

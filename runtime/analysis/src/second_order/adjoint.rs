@@ -1,7 +1,7 @@
 //! Accounts for the motion of the equilibrium in a gradient and in its derivative along a direction.
 
 use crate::algebra::{Lu, Matrix, Vector, times_columns};
-use crate::kernels::{CurvatureKernels, Gradient, Kernels};
+use crate::kernels::{CurvatureKernels, Directional, Gradient, Kernels};
 use crate::scalar::Real as _;
 use crate::sensitivity::{Direction, subtract};
 use crate::{Equilibrium, Error};
@@ -48,7 +48,9 @@ impl<'a> Adjoint<'a> {
             [dq, du, db, &still]
         });
         let along: Vec<[&[f64]; 4]> = along.collect();
-        self.mechanism.residual_gradients_along_into(q, u, b, w, &along, room);
+        let here: [&[f64]; 4] = [q, u, b, w];
+        let points: Vec<[&[&[f64]]; 2]> = along.iter().map(|along| [&here[..], along]).collect();
+        self.mechanism.evaluate_along_each(Directional::ResidualGradient, &points, room);
         for ((change, room), direction) in changes.iter_mut().zip(room).zip(directions) {
             self.add_held(w, direction, room);
             subtract(change, room);

@@ -3,11 +3,12 @@
 //! number of variables.
 
 use core::ops::Range;
+use core::slice;
 
 use super::adjoint::Adjoint;
 use super::derivatives::{SecondDerivatives, symmetric};
 use crate::algebra::{Matrix, Vector, dot, dot_complex, times_columns, times_complex};
-use crate::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
+use crate::kernels::{Curvature, CurvatureKernels, Gradient, Kernels, Linear};
 use crate::modes::{Family, pencil_slope_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{
@@ -325,12 +326,14 @@ impl<'a> AdjointGradient<'a> {
         let phi = mode.real_shape();
         let along = directions.iter().zip(moved).zip(rates).map(|((direction, dphi), rate)| {
             let [dq, du, db] = direction.parts();
-            ([dq, du, db, &**dphi], *rate)
+            [dq, du, db, dphi, slice::from_ref(rate)]
         });
-        let along: Vec<([&[f64]; 4], f64)> = along.collect();
+        let along: Vec<[&[f64]; 5]> = along.collect();
         let zeros = || vec![Gradient::zeros(mechanism.sizes()); along.len()];
         let (mut changes, mut room) = (zeros(), zeros());
-        mechanism.mode_gradients_along_into(q, u, b, &phi, mode.lambda, &along, &mut changes);
+        let here: [&[f64]; 5] = [q, u, b, &phi, &[mode.lambda]];
+        let points: Vec<[&[&[f64]]; 2]> = along.iter().map(|along| [&here[..], along]).collect();
+        mechanism.evaluate_curvature_each(Curvature::ModeGradient, &points, &mut changes);
         for w in &self.w {
             self.adjoint.total_along_each(&mut changes, w, directions, (shift, &mut room));
         }

@@ -1,6 +1,7 @@
 //! The second-order model in independent standard normal variables, scaled so that its largest coefficient is about 1.
 
 use crate::Error;
+use crate::algebra::dot;
 use crate::scalar::Real as _;
 use crate::second_order::quadratic::{ModelMoments, Quadratic, beyond_range};
 use crate::tolerance::Tolerances;
@@ -100,10 +101,6 @@ impl Standard {
 fn product(mut factors: [f64; 3]) -> f64 {
     factors.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     factors[0] * factors[2] * factors[1]
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn times(matrix: &[f64], x: &[f64]) -> Vec<f64> {

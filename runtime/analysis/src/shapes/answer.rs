@@ -1,4 +1,3 @@
-use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject};
 
 use super::ShapeSensitivity;
@@ -17,8 +16,7 @@ impl Answer for ShapeSensitivity {
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &[]);
-        let mut said = Findings::titled(format!("{title}: derivatives of a mode shape"));
+        let mut said = self.titled("derivatives of a mode shape");
         let variables = variables(d);
         let mut rows = Vec::new();
         for (unknown, info) in d.coordinates.iter().enumerate() {

@@ -68,9 +68,7 @@ impl Allocate {
         }
         let allocation = study.allocation(&wanted, &choices)?;
         drop(bar);
-        let mut answer = self.output.answer();
-        answer.add(&allocation)?;
-        self.output.write(&answer)?;
+        self.output.show(&allocation)?;
         if allocation.stopped {
             let tried = allocation.evaluations;
             return Ok(Verdict::Stopped(format!("after {tried} choices: there may be cheaper tolerances")));

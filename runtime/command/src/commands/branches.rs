@@ -53,9 +53,7 @@ impl Branches {
         match rows {
             Some(rows) => rows.finish()?,
             None => {
-                let mut answer = self.output.answer();
-                answer.add(&branches)?;
-                self.output.write(&answer)?;
+                self.output.show(&branches)?;
             }
         }
         let ends = branches.branches.iter().flat_map(|branch| &branch.ends);

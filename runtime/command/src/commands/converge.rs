@@ -50,9 +50,7 @@ impl Converge {
             }
         };
         drop(bar);
-        let mut answer = self.output.answer();
-        answer.add(&convergence.of_first(self.modes.unwrap_or(usize::MAX)))?;
-        self.output.write(&answer)?;
+        self.output.show(&convergence.of_first(self.modes.unwrap_or(usize::MAX)))?;
         Ok(Verdict::of(&question.study)?)
     }
 }

@@ -23,9 +23,7 @@ impl Equilibria {
         let question = self.point.question()?;
         question.note_unset();
         let states = question.equilibria()?;
-        let mut answer = self.output.answer();
-        answer.add(&states)?;
-        self.output.write(&answer)?;
+        self.output.show(&states)?;
         if interrupt::stopped() {
             return Ok(Verdict::Stopped(format!("after {} starts", states.starts)));
         }

@@ -13,7 +13,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::rotor::{Unbalanced, turning_mass, unbalances};
 use eigentol_interpreter::{Interpreted, value};
 use eigentol_results::numbers::{frequency_in, in_unit as number_in, number, rough, short, with_unit};
-use eigentol_results::{Answer, Columns, Findings, Subject};
+use eigentol_results::{Answer, Columns, Findings, at_point};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -72,13 +72,11 @@ impl Grade {
             }
             () => Verdict::of(&question.study)?,
         };
-        let mut answer = self.output.answer();
-        answer.add(&Grades {
+        self.output.show(&Grades {
             each,
             inputs: question.study.input_values().to_vec(),
             description: Shared::from(question.study.description().clone()),
         })?;
-        self.output.write(&answer)?;
         Ok(verdict)
     }
 }
@@ -279,9 +277,7 @@ struct Grades {
 impl Answer for Grades {
     const KIND: &'static str = "balance grades";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let name = &self.description.name;

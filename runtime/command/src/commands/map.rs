@@ -63,9 +63,7 @@ impl Map {
         drop(bar);
         let style = self.picture.style(&question, usize::MAX)?;
         self.picture.draw(|| figures::event_map(&map, &style))?;
-        let mut answer = self.output.answer();
-        answer.add(&map)?;
-        self.output.write(&answer)?;
+        self.output.show(&map)?;
         if map.points.iter().any(|(_, events)| events.is_ok()) {
             return Ok(Verdict::Yes);
         }

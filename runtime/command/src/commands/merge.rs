@@ -41,9 +41,7 @@ impl Merge {
             self.output.write_text(&parts::text(&all)?)?;
             return Ok(Verdict::Yes);
         }
-        let mut answer = self.output.answer();
-        answer.add(&all.result())?;
-        self.output.write(&answer)?;
+        self.output.show(&all.result())?;
         Ok(match all.check_complete() {
             Ok(()) => Verdict::Yes,
             Err(error) => Verdict::No(error.to_string()),

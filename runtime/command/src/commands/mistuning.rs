@@ -53,9 +53,7 @@ impl Mistuning {
         let study = progress::watched(question.study.clone(), &bar);
         let found = study.mistuning(asked)?;
         drop(bar);
-        let mut answer = self.output.answer();
-        answer.add(&found)?;
-        self.output.write(&answer)?;
+        self.output.show(&found)?;
         Ok(Verdict::of(&question.study)?)
     }
 }

@@ -115,9 +115,7 @@ impl Response {
         }
         drop(bar);
         self.figure(&question, &course, drawn, &peaks)?;
-        let mut answer = self.output.answer();
-        answer.add(&bode)?;
-        self.output.write(&answer)?;
+        self.output.show(&bode)?;
         if bode.points.len() < values.len() {
             return Ok(Verdict::stopped(bode.points.len(), values.len(), "values"));
         }

@@ -89,9 +89,7 @@ impl Sample {
             if self.shard.is_some() || self.partial {
                 self.output.write_text(&parts::text(&part)?)?;
             } else {
-                let mut answer = self.output.answer();
-                answer.add(&part.result())?;
-                self.output.write(&answer)?;
+                self.output.show(&part.result())?;
             }
         }
         let missing = within(&part.missing(), &range);

@@ -73,9 +73,7 @@ impl Follow {
             }
             None => {
                 sweep.points = points;
-                let mut answer = self.output.answer();
-                answer.add(&sweep)?;
-                self.output.write(&answer)?;
+                self.output.show(&sweep)?;
             }
         }
         if done < values.len() {

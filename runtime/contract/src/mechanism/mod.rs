@@ -56,6 +56,24 @@ pub type OutputMotionOf<M, T> = (
     <M as Mechanism>::Outputs<<M as Mechanism>::Coordinates<T>>,
 );
 
+/// Forms of methods that are inlined at the call site; each calls the method.
+macro_rules! inlined {
+    ($($(#[$attribute:meta])* $inlined:ident: $kernel:ident($($argument:ident: $kind:ty),*) -> $result:ty;)*) => {$(
+        $(#[$attribute])*
+        #[doc(hidden)]
+        #[inline(always)]
+        fn $inlined<T: Real>(
+            &self,
+            q: &Self::Coordinates<T>,
+            u: &Self::Inputs<T>,
+            b: &Self::Design<T>,
+            $($argument: $kind),*
+        ) -> $result {
+            self.$kernel(q, u, b, $($argument),*)
+        }
+    )*};
+}
+
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables, `O` outputs and `E`
 /// excitations.
 ///
@@ -69,6 +87,7 @@ pub type OutputMotionOf<M, T> = (
 ///
 /// A method never fails: outside its domain (a negative length under a root, NaN as input) it returns NaN or infinity,
 /// which the solvers of this crate turn into typed errors.
+#[allow(clippy::too_many_arguments, clippy::type_complexity)]
 pub trait Mechanism: Clone + Sync + Sized {
     /// A number for each of the `N` unknowns.
     type Coordinates<T: Copy>: Array<T>;
@@ -220,7 +239,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// For a small mechanism the sines and other common terms are computed once; a large one computes the two
     /// separately.
     #[inline]
-    #[allow(clippy::type_complexity)]
     fn partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -277,7 +295,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// and in the other three vectors together. Its gradient takes four calls: real and imaginary part of `psi` with
     /// each of the real and imaginary parts of (`s^2 phi`, `s phi`, `phi`). [`Mechanism::mode_gradient`] is the case
     /// `left` = `position` = `phi`, `acceleration` = `-lambda phi`, `velocity` = 0.
-    #[allow(clippy::too_many_arguments)]
     fn pencil_gradient<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -299,7 +316,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     ) -> GradientOf<Self, T>;
 
     /// Directional derivative of [`Mechanism::mode_gradient`] along (`dq`, `du`, `db`, `dphi`, `dlambda`).
-    #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -320,7 +336,6 @@ pub trait Mechanism: Clone + Sync + Sized {
 
     /// Directional derivative of [`Mechanism::pencil_gradient`] along (`dq`, `du`, `db`, `dleft`, `dacceleration`,
     /// `dvelocity`, `dposition`).
-    #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -351,7 +366,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     }
 
     /// Directional derivative of [`Mechanism::residual_gradient`] along (`dq`, `du`, `db`, `dw`).
-    #[allow(clippy::too_many_arguments)]
     fn residual_gradient_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -443,7 +457,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     fn outputs<T: Real>(&self, q: &Self::Coordinates<T>, u: &Self::Inputs<T>, b: &Self::Design<T>) -> Self::Outputs<T>;
 
     /// Explicit partial derivatives of the outputs with respect to every coordinate, input and design variable.
-    #[allow(clippy::type_complexity)]
     fn output_partials<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -452,7 +465,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     ) -> (Self::Outputs<Self::Coordinates<T>>, Self::Outputs<Self::Inputs<T>>, Self::Outputs<Self::Design<T>>);
 
     /// Directional derivative of [`Mechanism::output_partials`] along (`dq`, `du`, `db`).
-    #[allow(clippy::type_complexity)]
     fn output_partials_along<T: Real>(
         &self,
         q: &Self::Coordinates<T>,
@@ -509,7 +521,6 @@ pub trait Mechanism: Clone + Sync + Sized {
     /// ```
     ///
     /// where `C`, `S`, `c`, `s`, `w` are the fields of [`Mechanism::forcing`] and the factors have their names.
-    #[allow(clippy::too_many_arguments)]
     fn forced_gradient<T: Real>(
         &self,
         _q: &Self::Coordinates<T>,
@@ -569,150 +580,35 @@ pub trait Mechanism: Clone + Sync + Sized {
         )
     }
 
-    /// [`Mechanism::residual_and_stiffness`], inlined at the call site (like the others below), as vector instructions
-    /// require. Generated code overrides it.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_and_stiffness_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> (Self::Coordinates<T>, Square<Self, T>) {
-        self.residual_and_stiffness(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_parts_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> RestParts<Self::Coordinates<T>> {
-        self.residual_parts(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn linear_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> Linear<Square<Self, T>> {
-        self.linear(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_partials_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> ResidualPartialsOf<Self, T> {
-        self.residual_partials(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn linear_partials_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-    ) -> PartialsOf<Self, T> {
-        self.linear_partials(q, u, b)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn linear_partials_into_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        result: &mut PartialsOf<Self, T>,
-    ) {
-        self.linear_partials_into(q, u, b, result);
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn mode_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        phi: &Self::Coordinates<T>,
-        lambda: T,
-    ) -> GradientOf<Self, T> {
-        self.mode_gradient(q, u, b, phi, lambda)
-    }
-
-    #[doc(hidden)]
-    #[inline(always)]
-    fn residual_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        w: &Self::Coordinates<T>,
-    ) -> GradientOf<Self, T> {
-        self.residual_gradient(q, u, b, w)
-    }
-
-    #[doc(hidden)]
-    #[allow(clippy::too_many_arguments)]
-    #[inline(always)]
-    fn pencil_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        left: &Self::Coordinates<T>,
-        acceleration: &Self::Coordinates<T>,
-        velocity: &Self::Coordinates<T>,
-        position: &Self::Coordinates<T>,
-    ) -> GradientOf<Self, T> {
-        self.pencil_gradient(q, u, b, left, acceleration, velocity, position)
-    }
-
-    #[doc(hidden)]
-    #[allow(clippy::too_many_arguments)]
-    #[inline(always)]
-    fn forced_gradient_inlined<T: Real>(
-        &self,
-        q: &Self::Coordinates<T>,
-        u: &Self::Inputs<T>,
-        b: &Self::Design<T>,
-        output: &Self::Outputs<T>,
-        acceleration: &Self::Coordinates<T>,
-        velocity: &Self::Coordinates<T>,
-        position: &Self::Coordinates<T>,
-        share: &Self::Excitations<T>,
-        cosine: &Self::Coordinates<T>,
-        sine: &Self::Coordinates<T>,
-        direct_cosine: &Self::Outputs<T>,
-        direct_sine: &Self::Outputs<T>,
-        frequency: &Self::Excitations<T>,
-    ) -> GradientOf<Self, T> {
-        self.forced_gradient(
-            q,
-            u,
-            b,
-            output,
-            acceleration,
-            velocity,
-            position,
-            share,
-            cosine,
-            sine,
-            direct_cosine,
-            direct_sine,
-            frequency,
-        )
+    inlined! {
+        /// [`Mechanism::residual_and_stiffness`], inlined at the call site (like the others below), as vector instructions
+        /// require. Generated code overrides it.
+        residual_and_stiffness_inlined: residual_and_stiffness() -> (Self::Coordinates<T>, Square<Self, T>);
+        residual_parts_inlined: residual_parts() -> RestParts<Self::Coordinates<T>>;
+        linear_inlined: linear() -> Linear<Square<Self, T>>;
+        residual_partials_inlined: residual_partials() -> ResidualPartialsOf<Self, T>;
+        linear_partials_inlined: linear_partials() -> PartialsOf<Self, T>;
+        linear_partials_into_inlined: linear_partials_into(result: &mut PartialsOf<Self, T>) -> ();
+        mode_gradient_inlined: mode_gradient(phi: &Self::Coordinates<T>, lambda: T) -> GradientOf<Self, T>;
+        residual_gradient_inlined: residual_gradient(w: &Self::Coordinates<T>) -> GradientOf<Self, T>;
+        pencil_gradient_inlined: pencil_gradient(
+            left: &Self::Coordinates<T>,
+            acceleration: &Self::Coordinates<T>,
+            velocity: &Self::Coordinates<T>,
+            position: &Self::Coordinates<T>
+        ) -> GradientOf<Self, T>;
+        forced_gradient_inlined: forced_gradient(
+            output: &Self::Outputs<T>,
+            acceleration: &Self::Coordinates<T>,
+            velocity: &Self::Coordinates<T>,
+            position: &Self::Coordinates<T>,
+            share: &Self::Excitations<T>,
+            cosine: &Self::Coordinates<T>,
+            sine: &Self::Coordinates<T>,
+            direct_cosine: &Self::Outputs<T>,
+            direct_sine: &Self::Outputs<T>,
+            frequency: &Self::Excitations<T>
+        ) -> GradientOf<Self, T>;
     }
 }
 

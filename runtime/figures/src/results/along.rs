@@ -3,10 +3,10 @@
 use eigentol::branches::SpecialKind;
 use eigentol::modes::{Character, Whirl};
 use eigentol::sweep::Sweep;
-use eigentol::{Campbell, Complex, Description, Equilibrium, Error, Input, Unit};
+use eigentol::{Campbell, Complex, Description, Equilibrium, Input, Unit};
 
 use crate::caption::{design, in_unit, operating_point};
-use crate::figure::Axis;
+use crate::figure::{Axis, Figure, Panel};
 use crate::style::Style;
 
 /// A result along an input: [`Sweep`] or [`Campbell`].
@@ -17,7 +17,7 @@ impl Along for Campbell {}
 
 /// A mode at one value of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sample {
+pub struct Sample {
     pub(crate) label: usize,
     pub(crate) s: Complex,
     pub(crate) oscillates: bool,
@@ -32,16 +32,15 @@ pub(crate) struct Station {
 }
 
 pub(crate) mod sealed {
-    use super::{Campbell, Character, Complex, Description, Equilibrium, Error, Input, SpecialKind, Sweep, Whirl};
+    use super::{Campbell, Description, Equilibrium, Input, Sample, SpecialKind, Sweep, Whirl};
 
-    type ModeAt = (usize, Complex, Option<f64>, Option<Character>);
+    type State<'a> = (f64, Option<&'a Equilibrium>, Vec<Sample>);
 
     pub trait Along {
         /// The mechanism, the varied input and the values of all, SI.
         fn about(&self) -> (&Description, Input, &[f64]);
-        /// Values, SI, with their equilibria and with the labels, eigenvalues, frequencies and kinds of their
-        /// modes.
-        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)>;
+        /// Values, SI, with their equilibria and modes.
+        fn points(&self) -> Vec<State<'_>>;
         /// Values, SI, at which stiffness is lost, with the equilibrium if it changes without a jump.
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)>;
     }
@@ -51,18 +50,15 @@ pub(crate) mod sealed {
             (&self.description, self.input, &self.inputs)
         }
 
-        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
-            self.points
-                .iter()
-                .map(|point| {
-                    let modes = point.modes.iter().flat_map(|mode| &mode.modes);
-                    (
-                        point.value,
-                        point.equilibrium.as_ref(),
-                        modes.map(|mode| (mode.label, mode.s, mode.frequency(), None)).collect(),
-                    )
-                })
-                .collect()
+        fn points(&self) -> Vec<State<'_>> {
+            let each = self.points.iter().map(|point| {
+                let modes = point.modes.iter().flat_map(|all| &all.modes).map(|mode| {
+                    let oscillates = mode.frequency().is_some();
+                    Sample { label: mode.label, s: mode.s, oscillates, character: None }
+                });
+                (point.value, point.equilibrium.as_ref().ok(), modes.collect())
+            });
+            each.collect()
         }
 
         fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)> {
@@ -76,21 +72,13 @@ pub(crate) mod sealed {
             (&self.description, self.input, &self.inputs)
         }
 
-        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<ModeAt>)> {
+        fn points(&self) -> Vec<State<'_>> {
             let each = self.points.iter().map(|point| {
-                (
-                    point.value,
-                    point.equilibrium.as_ref(),
-                    point
-                        .modes
-                        .iter()
-                        .flatten()
-                        .map(|mode| {
-                            let kind = mode.whirl.map(Whirl::character);
-                            (mode.label, mode.s, mode.behaviour.frequency(), kind)
-                        })
-                        .collect(),
-                )
+                let modes = point.modes.iter().flatten().map(|mode| {
+                    let oscillates = mode.behaviour.frequency().is_some();
+                    Sample { label: mode.label, s: mode.s, oscillates, character: mode.whirl.map(Whirl::character) }
+                });
+                (point.value, point.equilibrium.as_ref().ok(), modes.collect())
             });
             each.collect()
         }
@@ -123,14 +111,8 @@ impl<'a> Course<'a> {
         };
         let (mut stations, mut equilibria) = (Vec::new(), Vec::new());
         for (value, equilibrium, modes) in result.points() {
-            let sample = |(label, s, frequency, character): (usize, Complex, Option<f64>, _)| Sample {
-                label,
-                s,
-                oscillates: frequency.is_some(),
-                character,
-            };
-            stations.push(Station { value: to_unit(value), modes: modes.into_iter().map(sample).collect() });
-            equilibria.push((to_unit(value), equilibrium.ok()));
+            stations.push(Station { value: to_unit(value), modes });
+            equilibria.push((to_unit(value), equilibrium));
         }
         let critical = result.critical();
         let soft = critical.iter().filter_map(|(value, state)| Some((*value, (*state)?)));
@@ -160,6 +142,11 @@ impl<'a> Course<'a> {
         }
         with_notes(lines, style, self.description)
     }
+}
+
+/// A figure of a mechanism with a title: what it shows, unless the user wrote another one.
+pub(crate) fn finished(style: &Style, d: &Description, what: &str, caption: Vec<String>, panels: Vec<Panel>) -> Figure {
+    Figure::new(style.titled(format!("{}: {what}", d.name)), caption, panels)
 }
 
 /// Adds the user's notes; a note that lists the design variables replaces the line without tolerances.

@@ -7,7 +7,7 @@ use eigentol::propagation::ResponseSpread;
 use eigentol::response::{Response, Vibration};
 use eigentol::{Complex, Unit};
 
-use super::along::{ends, input_axis, input_unit, with_notes};
+use super::along::{ends, finished, input_axis, input_unit, with_notes};
 use crate::Error;
 use crate::caption::{in_unit, number, operating_point, with_unit};
 use crate::figure::{Axis, Colour, Curve, ErrorBar, Figure, Panel, Point, Shape, Stroke};
@@ -99,8 +99,7 @@ pub fn bode(result: &Bode, vibration: Vibration, peaks: &[Peaks], style: &Style)
     for panel in &mut panels {
         panel.marks.extend(style.marks());
     }
-    let title = style.titled(format!("{}: {}", result.description.name, course.name()));
-    Ok(Figure::new(title, caption, panels))
+    Ok(finished(style, &result.description, &course.name(), caption, panels))
 }
 
 /// The polar plot of a vibration: the path of its complex amplitude along the input, from a ring to a disc, with values

@@ -3,7 +3,7 @@
 use eigentol::branches::{Branch, BranchPoint, Branches, SpecialKind, SpecialPoint};
 use eigentol::{Description, Role, Stability, Text, Unit};
 
-use super::along::{input_axis, input_unit, with_notes};
+use super::along::{finished, input_axis, input_unit, with_notes};
 use crate::Error;
 use crate::caption::{design, in_unit, operating_point, with_unit};
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Shape, Stroke};
@@ -93,8 +93,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     if result.truncated {
         caption.push("There are more branches than were followed.".to_owned());
     }
-    let title = style.titled(format!("{}: branches of equilibria", d.name));
-    Ok(Figure::new(title, caption, panels))
+    Ok(finished(style, d, "branches of equilibria", caption, panels))
 }
 
 /// What a panel shows.

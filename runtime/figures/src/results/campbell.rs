@@ -6,7 +6,7 @@ use eigentol::modes::Sense;
 use eigentol::sweep::{Condition, Event};
 use eigentol::tolerance::Spread;
 
-use super::along::{Course, input_unit};
+use super::along::{Course, finished, input_unit};
 use super::ends::Ends;
 use super::events;
 use super::scale::{self, factor, words};
@@ -100,8 +100,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
         let lines = if beyond == 1 { "line lies" } else { "lines lie" };
         caption.push(format!("{beyond} more {lines} above the diagram"));
     }
-    let title = style.titled(format!("{}: Campbell diagram", result.description.name));
-    Ok(Figure::new(title, caption, vec![panel]))
+    Ok(finished(style, &result.description, "Campbell diagram", caption, vec![panel]))
 }
 
 /// Somewhat above the excitation lines and the lowest frequency: no frequency higher up meets a line.

@@ -2,7 +2,7 @@
 
 use eigentol::Campbell;
 
-use super::along::Course;
+use super::along::{Course, finished};
 use super::campbell::{bands, changes_stability, oscillation};
 use super::ends::Ends;
 use super::events;
@@ -51,8 +51,7 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
     }
     caption.push("Below zero a vibration grows.".to_owned());
     caption.extend(lines);
-    let title = style.titled(format!("{}: damping ratios", result.description.name));
-    Ok(Figure::new(title, caption, vec![panel]))
+    Ok(finished(style, &result.description, "damping ratios", caption, vec![panel]))
 }
 
 /// Damping ratio in percent.

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use eigentol::picture::{ModePictures, Pose, Scene};
 use eigentol::{Complex, Description, Mode, Modes};
 
-use super::along::with_notes;
+use super::along::{finished, with_notes};
 use super::shapes::{MOST, label};
 use crate::Error;
 use crate::caption::operating_point;
@@ -68,8 +68,7 @@ pub fn deflections(scene: &Scene, modes: &Modes, pictures: &[ModePictures], styl
     if later {
         caption.push("Dotted: a quarter of a period later.".to_owned());
     }
-    let title = style.titled(format!("{}: mode shapes", d.name));
-    Ok(Figure::new(title, with_notes(caption, style, d), panels))
+    Ok(finished(style, d, "mode shapes", with_notes(caption, style, d), panels))
 }
 
 /// Complex displacements of each section along x, y, z, and its twist, the largest one real.

@@ -2,7 +2,7 @@
 
 use eigentol::Campbell;
 
-use super::along::{Along, Course};
+use super::along::{Along, Course, finished};
 use super::campbell::changes_stability;
 use super::ends::Ends;
 use super::events;
@@ -61,8 +61,7 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     ends.write(&mut panel, style);
     let mut caption = course.caption(style);
     caption.extend(lines);
-    let title = style.titled(format!("{}: eigenvalues", result.description.name));
-    Ok(Figure::new(title, caption, vec![panel]))
+    Ok(finished(style, &result.description, "eigenvalues", caption, vec![panel]))
 }
 
 /// The paths of the eigenvalues in the complex plane as the input varies.
@@ -108,6 +107,5 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     }
     panel.marks.push(crate::figure::Mark { label: "motions to the right grow".to_owned(), at: 0.0 });
     let caption = course.caption(style);
-    let title = style.titled(format!("{}: root locus", course.description.name));
-    Ok(Figure::new(title, caption, vec![panel]))
+    Ok(finished(style, course.description, "root locus", caption, vec![panel]))
 }

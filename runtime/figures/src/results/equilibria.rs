@@ -2,7 +2,7 @@
 
 use eigentol::{Equilibrium, Role};
 
-use super::along::{Along, Course};
+use super::along::{Along, Course, finished};
 use crate::Error;
 use crate::caption::{in_unit, number};
 use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
@@ -46,8 +46,7 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
         panel.marks.extend(style.marks());
         panel.marks.extend(course.critical.iter().map(|&at| Mark { label: format!("critical {}", number(at)), at }));
     }
-    let title = style.titled(format!("{}: equilibrium", course.description.name));
-    Ok(Figure::new(title, course.caption(style), panels))
+    Ok(finished(style, course.description, "equilibrium", course.caption(style), panels))
 }
 
 /// The stable or the unstable points; each stretch includes the first point of the next, so that they meet. At a

@@ -3,7 +3,7 @@
 use eigentol::EventMap;
 use eigentol::sweep::{Condition, Event};
 
-use super::along::input_unit;
+use super::along::{finished, input_unit};
 use super::events::words;
 use crate::Error;
 use crate::caption::in_unit;
@@ -75,6 +75,5 @@ pub fn event_map(map: &EventMap, style: &Style) -> Result<Figure, Error> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     panel.x.logarithmic = least > 0.0 && most >= 10.0 * least;
-    let title = style.titled(format!("{}: events over {}", d.name, over.name));
-    Ok(Figure::new(title, Vec::new(), vec![panel]))
+    Ok(finished(style, d, &format!("events over {}", over.name), Vec::new(), vec![panel]))
 }

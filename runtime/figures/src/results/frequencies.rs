@@ -1,6 +1,6 @@
 //! Frequencies and damping ratios along an input.
 
-use super::along::{Along, Course};
+use super::along::{Along, Course, finished};
 use super::campbell::oscillation;
 use super::damping::percent;
 use super::ends::Ends;
@@ -46,6 +46,5 @@ pub fn frequencies<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figur
     for panel in &mut panels {
         panel.marks.extend(style.marks());
     }
-    let title = style.titled(format!("{}: frequencies", course.description.name));
-    Ok(Figure::new(title, course.caption(style), panels))
+    Ok(finished(style, course.description, "frequencies", course.caption(style), panels))
 }

@@ -3,7 +3,7 @@
 use eigentol::tolerance::ModeTolerance;
 use eigentol::{FirstOrder, MonteCarlo};
 
-use super::along::with_notes;
+use super::along::{finished, with_notes};
 use crate::Error;
 use crate::caption::{number, operating_point};
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point};
@@ -110,8 +110,7 @@ impl<'a> Histogram<'a> {
         panel.fit();
         panel.y.range[0] = 0.0;
         panel.marks.extend(style.marks());
-        let title = style.titled(format!("{}: distribution of {name}", d.name));
-        Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
+        Ok(finished(style, d, &format!("distribution of {name}"), with_notes(lines, style, d), vec![panel]))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use eigentol::{Complex, Description, Equilibrium, Mode, Modes, Role};
 
-use super::along::with_notes;
+use super::along::{finished, with_notes};
 use crate::Error;
 use crate::caption::{design, number, operating_point};
 use crate::figure::{Axis, Colour, Figure, Panel, Shape};
@@ -60,8 +60,7 @@ pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
         caption.push("Coordinates in rad and in m do not compare.".to_owned());
     }
     let caption = with_notes(caption, style, &result.description);
-    let title = style.titled(format!("{}: mode shapes", result.description.name));
-    Ok(Figure::new(title, caption, panels))
+    Ok(finished(style, &result.description, "mode shapes", caption, panels))
 }
 
 /// The share of each coordinate in the kinetic energy of each mode, `Re(phi_i* (Mhat phi)_i) / phi^H Mhat phi`.
@@ -92,8 +91,7 @@ pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<
     let mut caption = caption(result);
     caption.insert(1, design(&result.description, &at.design, &[]));
     let caption = with_notes(caption, style, &result.description);
-    let title = style.titled(format!("{}: what moves in each mode", result.description.name));
-    Ok(Figure::new(title, caption, vec![panel]))
+    Ok(finished(style, &result.description, "what moves in each mode", caption, vec![panel]))
 }
 
 fn shown(result: &Modes) -> Result<Vec<&Mode>, Error> {

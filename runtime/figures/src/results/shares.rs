@@ -3,7 +3,7 @@
 use eigentol::FirstOrder;
 use eigentol::tolerance::ModeTolerance;
 
-use super::along::with_notes;
+use super::along::{finished, with_notes};
 use crate::Error;
 use crate::caption::{number, operating_point};
 use crate::figure::{Axis, Colour, Figure, Panel};
@@ -29,8 +29,13 @@ pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure,
     let name = style.mode(mode);
     let lines = vec![operating_point(&result.description, &result.inputs, None), spread(result, mode, style)];
     let d = &*result.description;
-    let title = style.titled(format!("{}: where the variance of {name} comes from", d.name));
-    Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
+    Ok(finished(
+        style,
+        d,
+        &format!("where the variance of {name} comes from"),
+        with_notes(lines, style, d),
+        vec![panel],
+    ))
 }
 
 /// Variance shares of the first modes that tolerances move, one panel each.
@@ -60,8 +65,7 @@ pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error
     if panels.is_empty() {
         return Err(Error::nothing("no tolerance moves a mode"));
     }
-    let title = style.titled(format!("{}: where variance comes from", d.name));
-    Ok(Figure::new(title, with_notes(lines, style, d), panels))
+    Ok(finished(style, d, "where variance comes from", with_notes(lines, style, d), panels))
 }
 
 fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {

@@ -2,7 +2,7 @@
 
 use eigentol::{Description, FirstOrder, Input, MonteCarlo};
 
-use super::along::{input_axis, input_unit, with_notes};
+use super::along::{finished, input_axis, input_unit, with_notes};
 use crate::Error;
 use crate::caption::{in_unit, operating_point};
 use crate::figure::{Axis, Colour, Curve, ErrorBar, Figure, Panel, Point, Shape, Stroke};
@@ -114,8 +114,7 @@ impl<'a> Spreads<'a> {
             lower.level_line(0.0);
             vec![upper, lower]
         };
-        let title = style.titled(format!("{}: spread of {name}", d.name));
-        Ok(Figure::new(title, with_notes(caption, style, d), panels))
+        Ok(finished(style, d, &format!("spread of {name}"), with_notes(caption, style, d), panels))
     }
 
     fn add(&self, series: &Series<'_>, k: usize, (d, scale): (&Description, f64), [upper, lower]: [&mut Panel; 2]) {

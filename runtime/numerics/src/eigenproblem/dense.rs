@@ -11,33 +11,33 @@ const ROWS: usize = 2;
 /// `x . y`.
 #[inline(always)]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let (mut sums, mut rest) = ([0.0; PARTS], 0.0);
-    let (x, x_rest) = x.as_chunks::<PARTS>();
-    let (y, y_rest) = y.as_chunks::<PARTS>();
-    for (x, y) in x.iter().zip(y) {
-        for k in 0..PARTS {
-            sums[k] += x[k] * y[k];
-        }
-    }
-    for (x, y) in x_rest.iter().zip(y_rest) {
-        rest += x * y;
-    }
-    ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7])) + rest
+    sum_of(
+        x,
+        y,
+        #[inline(always)]
+        |product| product,
+    )
 }
 
 /// The sum of the absolute terms in `x . y`.
 #[inline(always)]
 pub(super) fn dot_sizes(x: &[f64], y: &[f64]) -> f64 {
+    sum_of(x, y, f64::abs)
+}
+
+/// The sum of what is taken of each product.
+#[inline(always)]
+fn sum_of(x: &[f64], y: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     let (mut sums, mut rest) = ([0.0; PARTS], 0.0);
     let (x, x_rest) = x.as_chunks::<PARTS>();
     let (y, y_rest) = y.as_chunks::<PARTS>();
     for (x, y) in x.iter().zip(y) {
         for k in 0..PARTS {
-            sums[k] += (x[k] * y[k]).abs();
+            sums[k] += of(x[k] * y[k]);
         }
     }
     for (x, y) in x_rest.iter().zip(y_rest) {
-        rest += (x * y).abs();
+        rest += of(x * y);
     }
     ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7])) + rest
 }
@@ -163,6 +163,7 @@ pub(super) fn cholesky(n: usize, matrix: &[f64], lower: &mut [f64]) -> Result<()
 }
 
 /// Transposes a square matrix in place.
+#[inline]
 pub(super) fn transpose(n: usize, matrix: &mut [f64]) {
     for i in 0..n {
         for j in 0..i {

@@ -4,8 +4,7 @@ use eigentol_results::columns::Columns;
 use eigentol_results::grid::{Grid, cells};
 use eigentol_results::numbers::{heading, in_unit, rough_in};
 use eigentol_results::relevance::of_its_kind;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Findings, Subject, displayed};
+use eigentol_results::{Answer, Findings, at_point, displayed};
 
 use super::{Assembly, AssemblyMode, ConstraintState, Equilibria};
 use crate::{Description, Equilibrium, Role, Text};
@@ -22,19 +21,16 @@ displayed!(Equilibrium, Equilibria, Assembly);
 impl Answer for Equilibrium {
     const KIND: &'static str = "equilibrium";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
         let stability = if self.constraints.singular {
             format!("stability {}", self.stability_word())
         } else {
             self.stability_word()
         };
-        let mut said = Findings::titled(format!("{title}: equilibrium, {stability}"));
+        let mut said = self.titled(format_args!("equilibrium, {stability}"));
         said.columns(states("equilibrium", d, &[(0, self)]));
         unknowns(&mut said, d, &self.coordinates, None);
         redundancy(&mut said, &self.constraints, self.dependent_constraints());
@@ -55,9 +51,7 @@ impl Answer for Equilibrium {
 impl Answer for Equilibria {
     const KIND: &'static str = "equilibria";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
@@ -65,7 +59,7 @@ impl Answer for Equilibria {
             1 => "1 equilibrium".to_owned(),
             several => format!("{several} equilibria"),
         };
-        let mut said = Findings::titled(format!("{}: {count}", title(d, &self.inputs)));
+        let mut said = self.titled(count);
         if self.is_empty() {
             return said;
         }
@@ -105,13 +99,11 @@ fn states<'a, 'b>(
 impl Answer for Assembly {
     const KIND: &'static str = "assembly";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let mut said = Findings::titled(self.title());
+        let mut said = self.titled(self.how());
         let rows = [self];
         let mut table = Columns::new("assembly", &rows);
         table.unknowns(d, &|row| Some(&row.coordinates[..]));
@@ -128,8 +120,8 @@ impl Answer for Assembly {
 }
 
 impl Assembly {
-    fn title(&self) -> String {
-        let title = title(&self.description, &self.inputs);
+    /// How it was assembled.
+    fn how(&self) -> String {
         let mode = match self.mode {
             Some(AssemblyMode::Positive) => ", positive assembly mode",
             Some(AssemblyMode::Negative) => ", negative assembly mode",
@@ -138,7 +130,7 @@ impl Assembly {
         let margin =
             if self.margin < 1.0 { format!(", margin to a dead centre {:.1e}", self.margin) } else { String::new() };
         let iterations = self.iterations;
-        format!("{title}: assembled in {iterations} iterations{mode}{margin}")
+        format!("assembled in {iterations} iterations{mode}{margin}")
     }
 }
 

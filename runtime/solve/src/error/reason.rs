@@ -1,6 +1,19 @@
 //! Reasons why a question has no answer: each one can be matched on, and prints as a sentence.
 
-use core::fmt;
+/// The text of values that are words.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! worded {
+    ($type:ty { $($value:pat => $word:literal,)+ }) => {
+        impl ::core::fmt::Display for $type {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                f.write_str(match self {
+                    $($value => $word,)+
+                })
+            }
+        }
+    };
+}
 
 macro_rules! reasons {
     ($(#[$doc:meta])* $name:ident { $($variant:ident = $sentence:literal,)+ }) => {
@@ -12,11 +25,9 @@ macro_rules! reasons {
             $(#[doc = $sentence] $variant,)+
         }
 
-        impl fmt::Display for $name {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(match self {
-                    $(Self::$variant => $sentence,)+
-                })
+        $crate::worded! {
+            $name {
+                $(Self::$variant => $sentence,)+
             }
         }
     };

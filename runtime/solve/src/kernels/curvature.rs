@@ -15,106 +15,13 @@ pub trait CurvatureKernels: DirectionalKernels {
         results: &mut [&mut [f64]],
     );
 
-    /// [`Mechanism::mode_gradient_along`](eigentol_contract::Mechanism::mode_gradient_along); `direction` is `dq`,
-    /// `du`, `db`, `dphi`.
-    #[allow(clippy::too_many_arguments)]
-    fn mode_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        [dq, du, db, dphi]: [&[f64]; 4],
-        dlambda: f64,
-        gradient: &mut Gradient,
-    ) {
-        self.evaluate_curvature(
-            Curvature::ModeGradient,
-            &[q, u, b, phi, &[lambda]],
-            &[dq, du, db, dphi, &[dlambda]],
-            &mut gradient_results(gradient),
-        );
-    }
-
-    /// [`Self::mode_gradient_along_into`] along several directions, each with its own change of `lambda`, with the same
-    /// results as one by one.
-    #[allow(clippy::too_many_arguments)]
-    fn mode_gradients_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        phi: &[f64],
-        lambda: f64,
-        directions: &[([&[f64]; 4], f64)],
-        gradients: &mut [Gradient],
-    ) {
-        for ((direction, rate), gradient) in directions.iter().zip(gradients) {
-            self.mode_gradient_along_into(q, u, b, phi, lambda, *direction, *rate, gradient);
+    /// [`Self::evaluate_curvature`] of a gradient at several points with a direction each, with the same results as one by
+    /// one.
+    fn evaluate_curvature_each(&self, kernel: Curvature, points: &[[&[&[f64]]; 2]], gradients: &mut [Gradient]) {
+        for ([arguments, direction], gradient) in points.iter().zip(gradients) {
+            self.evaluate_curvature(kernel, arguments, direction, &mut gradient_results(gradient));
         }
     }
-
-    /// [`Mechanism::pencil_gradient_along`](eigentol_contract::Mechanism::pencil_gradient_along); the direction is `dq`,
-    /// `du`, `db`, and `changes` is the change of `vectors`.
-    #[allow(clippy::too_many_arguments)]
-    fn pencil_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        vectors: [&[f64]; 4],
-        [dq, du, db]: [&[f64]; 3],
-        changes: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let lists = |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
-        self.evaluate_curvature(
-            Curvature::PencilGradient,
-            &lists([q, u, b], vectors),
-            &lists([dq, du, db], changes),
-            &mut gradient_results(gradient),
-        );
-    }
-
-    /// [`Self::pencil_gradient_along_into`] at several points, with the same results as one by one.
-    fn pencil_gradients_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        points: &[PencilAlong<'_>],
-        gradients: &mut [Gradient],
-    ) {
-        for (&PencilAlong { vectors, direction, changes }, gradient) in points.iter().zip(gradients) {
-            self.pencil_gradient_along_into(q, u, b, vectors, direction, changes, gradient);
-        }
-    }
-
-    /// [`Mechanism::output_partials_along`](eigentol_contract::Mechanism::output_partials_along); `direction` is `dq`,
-    /// `du`, `db`.
-    fn output_partials_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        direction: [&[f64]; 3],
-        partials: [&mut Matrix; 3],
-    ) {
-        let results = &mut matrix_results(partials);
-        self.evaluate_curvature(Curvature::OutputPartials, &[q, u, b], &direction, results);
-    }
-}
-
-/// A point at which the derivative of a gradient of the pencil is wanted, along a direction of its own.
-#[derive(Clone, Copy, Debug)]
-pub struct PencilAlong<'a> {
-    /// The left vector, accelerations, velocities and positions.
-    pub vectors: [&'a [f64]; 4],
-    /// `dq`, `du`, `db`.
-    pub direction: [&'a [f64]; 3],
-    /// The change of the vectors.
-    pub changes: [&'a [f64]; 4],
 }
 
 impl dyn CurvatureKernels + '_ {
@@ -128,11 +35,13 @@ impl dyn CurvatureKernels + '_ {
         b: &[f64],
         phi: &[f64],
         lambda: f64,
-        direction: [&[f64]; 4],
+        [dq, du, db, dphi]: [&[f64]; 4],
         dlambda: f64,
     ) -> Gradient {
         let mut gradient = Gradient::zeros(self.sizes());
-        self.mode_gradient_along_into(q, u, b, phi, lambda, direction, dlambda, &mut gradient);
+        let (arguments, direction) = ([q, u, b, phi, &[lambda]], [dq, du, db, dphi, &[dlambda]]);
+        let results = &mut gradient_results(&mut gradient);
+        self.evaluate_curvature(Curvature::ModeGradient, &arguments, &direction, results);
         gradient
     }
 
@@ -148,13 +57,18 @@ impl dyn CurvatureKernels + '_ {
         changes: [&[f64]; 4],
     ) -> Gradient {
         let mut gradient = Gradient::zeros(self.sizes());
-        self.pencil_gradient_along_into(q, u, b, vectors, direction, changes, &mut gradient);
+        let lists = |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
+        let (arguments, direction) = (lists([q, u, b], vectors), lists(direction, changes));
+        let results = &mut gradient_results(&mut gradient);
+        self.evaluate_curvature(Curvature::PencilGradient, &arguments, &direction, results);
         gradient
     }
+
     /// Derivatives of [`Kernels::output_partials_into`](crate::Kernels::output_partials_into) along `dq`, `du`, `db`.
     pub fn output_partials_along(&self, q: &[f64], u: &[f64], b: &[f64], direction: [&[f64]; 3]) -> [Matrix; 3] {
         let mut partials = output_partials_zeros(self.sizes());
-        self.output_partials_along_into(q, u, b, direction, partials.each_mut());
+        let results = &mut matrix_results(partials.each_mut());
+        self.evaluate_curvature(Curvature::OutputPartials, &[q, u, b], &direction, results);
         partials
     }
 }

@@ -36,18 +36,10 @@ pub trait DirectionalKernels: Kernels {
         self.evaluate_along(kernel, &[q, u, b, w], &direction, results);
     }
 
-    /// [`Self::residual_gradient_along_into`] along several directions, with the same results as one by one.
-    fn residual_gradients_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        directions: &[[&[f64]; 4]],
-        gradients: &mut [Gradient],
-    ) {
-        for (direction, gradient) in directions.iter().zip(gradients) {
-            self.residual_gradient_along_into(q, u, b, w, *direction, gradient);
+    /// [`Self::evaluate_along`] of a gradient at several points with a direction each, with the same results as one by one.
+    fn evaluate_along_each(&self, kernel: Directional, points: &[[&[&[f64]]; 2]], gradients: &mut [Gradient]) {
+        for ([arguments, direction], gradient) in points.iter().zip(gradients) {
+            self.evaluate_along(kernel, arguments, direction, &mut gradient_results(gradient));
         }
     }
 }

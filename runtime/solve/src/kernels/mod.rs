@@ -36,7 +36,7 @@ mod table;
 
 pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
-pub use curvature::{CurvatureKernels, PencilAlong};
+pub use curvature::CurvatureKernels;
 pub use deviating_inputs::DeviatingInputs;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;

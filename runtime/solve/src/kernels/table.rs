@@ -128,50 +128,29 @@ kernels! {
     }
 }
 
-/// Kernels with a derivative along a direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Directional {
-    /// [`Kernel::Linear`].
-    Linear,
-    /// [`Kernel::ResidualGradient`].
-    ResidualGradient,
-}
-
-/// Kernels with a derivative along a direction that are long and that few callers need.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Curvature {
-    /// [`Kernel::ModeGradient`].
-    ModeGradient,
-    /// [`Kernel::PencilGradient`].
-    PencilGradient,
-    /// [`Kernel::OutputPartials`].
-    OutputPartials,
-    /// [`Kernel::Forcing`].
-    Forcing,
-    /// [`Kernel::OutputMotion`].
-    OutputMotion,
-    /// [`Kernel::ForcedGradient`].
-    ForcedGradient,
-}
-
-impl From<Directional> for Kernel {
-    fn from(kernel: Directional) -> Self {
-        match kernel {
-            Directional::Linear => Self::Linear,
-            Directional::ResidualGradient => Self::ResidualGradient,
+/// Defines kernels that are some of [`Kernel`].
+macro_rules! some_kernels {
+    ($($(#[doc = $about:literal])* $table:ident { $($variant:ident),* })*) => {$(
+        $(#[doc = $about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $table {
+            $(#[doc = concat!("[`Kernel::", stringify!($variant), "`].")] $variant,)*
         }
-    }
+
+        impl From<$table> for Kernel {
+            fn from(kernel: $table) -> Self {
+                match kernel {
+                    $($table::$variant => Self::$variant,)*
+                }
+            }
+        }
+    )*};
 }
 
-impl From<Curvature> for Kernel {
-    fn from(kernel: Curvature) -> Self {
-        match kernel {
-            Curvature::ModeGradient => Self::ModeGradient,
-            Curvature::PencilGradient => Self::PencilGradient,
-            Curvature::OutputPartials => Self::OutputPartials,
-            Curvature::Forcing => Self::Forcing,
-            Curvature::OutputMotion => Self::OutputMotion,
-            Curvature::ForcedGradient => Self::ForcedGradient,
-        }
-    }
+some_kernels! {
+    /// Kernels with a derivative along a direction.
+    Directional { Linear, ResidualGradient }
+
+    /// Kernels with a derivative along a direction that are long and that few callers need.
+    Curvature { ModeGradient, PencilGradient, OutputPartials, Forcing, OutputMotion, ForcedGradient }
 }

@@ -5,8 +5,7 @@ use core::f64::consts::TAU;
 use eigentol_results::columns::Columns;
 use eigentol_results::numbers::{number, optional, or_dash, rough};
 use eigentol_results::relevance::{COLUMNS, EVERYTHING, largest, names, relevant, unless_rounding};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Findings, Subject, displayed};
+use eigentol_results::{Answer, Findings, at_point, displayed};
 
 use super::whirl::blades;
 use super::{Behaviour, Family};
@@ -18,13 +17,10 @@ displayed!(Modes);
 impl Answer for Modes {
     const KIND: &'static str = "modes";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: natural modes"));
+        let mut said = self.titled("natural modes");
         let shapes = Shapes::of(self);
         let mut table = Columns::new("modes", &self.modes);
         let behaviours: Vec<Behaviour> = self.modes.iter().map(|mode| mode.behaviour).collect();

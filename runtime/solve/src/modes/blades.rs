@@ -199,12 +199,10 @@ pub(crate) fn pattern(
 /// Blades with less of the energy do not count.
 const NO_SHARE: f64 = 1e-4;
 
-impl fmt::Display for Travel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Progressive => "progressive",
-            Self::Regressive => "regressive",
-        })
+crate::worded! {
+    Travel {
+        Self::Progressive => "progressive",
+        Self::Regressive => "regressive",
     }
 }
 

@@ -161,25 +161,21 @@ impl Whirl {
     }
 }
 
-impl fmt::Display for Kind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Lateral => "lateral",
-            Self::Torsional => "torsional",
-            Self::Axial => "axial",
-            Self::Mixed => "mixed",
-            Self::Blades => "blades",
-        })
+crate::worded! {
+    Kind {
+        Self::Lateral => "lateral",
+        Self::Torsional => "torsional",
+        Self::Axial => "axial",
+        Self::Mixed => "mixed",
+        Self::Blades => "blades",
     }
 }
 
-impl fmt::Display for Sense {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Forward => "forward",
-            Self::Backward => "backward",
-            Self::Planar => "planar",
-        })
+crate::worded! {
+    Sense {
+        Self::Forward => "forward",
+        Self::Backward => "backward",
+        Self::Planar => "planar",
     }
 }
 

@@ -2,8 +2,7 @@
 
 use eigentol_results::columns::Columns;
 use eigentol_results::numbers::{frequency_symbol, in_unit, with_unit};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Findings, Subject, displayed};
+use eigentol_results::{Answer, Findings, at_point, displayed};
 
 use super::derivatives::{Derived, Variable, data, say, variables};
 use super::{EquilibriumShift, ModeSensitivity, OutputSensitivities, Quantity, Sensitivities};
@@ -15,14 +14,11 @@ displayed!(Sensitivities, EquilibriumShift, OutputSensitivities);
 impl Answer for Sensitivities {
     const KIND: &'static str = "sensitivities";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
         let method = self.method;
-        let mut said = Findings::titled(format!("{title}: sensitivities of the frequencies, {method}"));
+        let mut said = self.titled(format_args!("sensitivities of the frequencies, {method}"));
         let variables = variables(&self.description, &self.inputs);
         self.data(&mut said, &variables);
         let behaviours: Vec<Behaviour> = self.modes.iter().map(ModeSensitivity::behaviour).collect();
@@ -119,14 +115,11 @@ fn slopes(mode: &ModeSensitivity, of: Quantity) -> Vec<f64> {
 impl Answer for EquilibriumShift {
     const KIND: &'static str = "equilibrium shift";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: shift of the equilibrium"));
+        let mut said = self.titled("shift of the equilibrium");
         let all = d.coordinates.iter().enumerate().map(|(i, info)| Derived {
             name: info.name.to_string(),
             unit: info.unit.clone(),
@@ -144,13 +137,11 @@ impl Answer for EquilibriumShift {
 impl Answer for OutputSensitivities {
     const KIND: &'static str = "output sensitivities";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let mut said = Findings::titled(format!("{}: outputs", title(d, &self.inputs)));
+        let mut said = self.titled("outputs");
         let rows = [&self.values[..]];
         let mut table = Columns::new("outputs", &rows);
         for (o, info) in d.outputs.iter().enumerate() {

@@ -42,8 +42,6 @@ pub use shift::{EquilibriumShift, equilibrium_shift};
 #[doc(hidden)]
 pub use shift::{directions, outside_domain};
 
-use core::fmt;
-
 use crate::algebra::Vector;
 use crate::arguments::check_count;
 use crate::kernels::Kernels;
@@ -65,14 +63,12 @@ pub enum Method {
     FiniteDifference,
 }
 
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Adjoint => "exact (adjoint)",
-            Self::Explicit => "exact (explicit partials)",
-            Self::FrozenEquilibrium => "equilibrium frozen: NOT the true derivatives",
-            Self::FiniteDifference => "central differences",
-        })
+crate::worded! {
+    Method {
+        Self::Adjoint => "exact (adjoint)",
+        Self::Explicit => "exact (explicit partials)",
+        Self::FrozenEquilibrium => "equilibrium frozen: NOT the true derivatives",
+        Self::FiniteDifference => "central differences",
     }
 }
 

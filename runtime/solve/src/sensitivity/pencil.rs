@@ -8,7 +8,7 @@
 use core::mem::take;
 
 use crate::algebra::{Values, Vector};
-use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, PencilAlong};
+use crate::kernels::{Curvature, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear};
 use crate::{Complex, Equilibrium, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of its four
@@ -148,15 +148,16 @@ pub fn form_gradients_along(
 ) -> [Vec<Gradient>; 2] {
     let products = products(form.is_real() && along.iter().all(|(_, change)| change.is_real()));
     let points = along.iter().flat_map(|(direction, change)| {
-        products.iter().map(|&(left, others)| PencilAlong {
-            vectors: form.parts(left, others),
-            direction: direction.parts(),
-            changes: change.parts(left, others),
+        products.iter().map(|&(left, others)| {
+            let lists = |[q, u, b]: [_; 3], [l, a, v, x]: [_; 4]| -> [&[f64]; 7] { [q, u, b, l, a, v, x] };
+            let here: [&[f64]; 3] = [&at.coordinates, &at.inputs, &at.design];
+            [lists(here, form.parts(left, others)), lists(direction.parts(), change.parts(left, others))]
         })
     });
-    let points: Vec<PencilAlong<'_>> = points.collect();
+    let points: Vec<[[&[f64]; 7]; 2]> = points.collect();
+    let points: Vec<[&[&[f64]]; 2]> = points.iter().map(|lists| lists.each_ref().map(|lists| &lists[..])).collect();
     let mut gradients = vec![Gradient::zeros(mechanism.sizes()); points.len()];
-    mechanism.pencil_gradients_along_into(&at.coordinates, &at.inputs, &at.design, &points, &mut gradients);
+    mechanism.evaluate_curvature_each(Curvature::PencilGradient, &points, &mut gradients);
     let both = gradients.chunks_exact_mut(products.len()).map(|own| match own {
         [re, first, im, second] => {
             combine(re, first, im, second);

@@ -1,7 +1,5 @@
 //! Quantities of a mode, such as frequency and damping ratio: values and derivatives from those of its eigenvalue.
 
-use core::fmt;
-
 use crate::{Complex, Mode, Text, Unit};
 
 /// A real number that describes a mode.
@@ -107,14 +105,12 @@ impl Quantity {
     }
 }
 
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Frequency => "frequency",
-            Self::NaturalFrequency => "natural frequency",
-            Self::DampingRatio => "damping ratio",
-            Self::Growth => "growth",
-        })
+crate::worded! {
+    Quantity {
+        Self::Frequency => "frequency",
+        Self::NaturalFrequency => "natural frequency",
+        Self::DampingRatio => "damping ratio",
+        Self::Growth => "growth",
     }
 }
 

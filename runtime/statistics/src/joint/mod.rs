@@ -27,7 +27,7 @@ pub use factor::semidefinite_factor;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "serial::Unchecked"))]
+#[cfg_attr(feature = "serde", serde(remote = "Self", expecting = "a joint distribution"))]
 pub struct Joint {
     variables: Vec<Distribution>,
     dependence: Option<Dependence>,

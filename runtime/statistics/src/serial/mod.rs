@@ -25,3 +25,22 @@ pub mod exact {
         T::Written::deserialize(from).map(T::read)
     }
 }
+
+/// Types that are checked when they are read: they derive serde's traits with `serde(remote = "Self")` and have a method
+/// `checked(self) -> Result<Self, &'static str>`.
+#[macro_export]
+macro_rules! checked {
+    ($type:ty) => {
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                Self::serialize(self, to)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $type {
+            fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                Self::deserialize(from)?.checked().map_err(serde::de::Error::custom)
+            }
+        }
+    };
+}

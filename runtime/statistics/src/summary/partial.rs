@@ -14,7 +14,8 @@ use crate::Error;
 /// Two instances of the same samples are equal to the last bit, however they were built. A contiguous range needs
 /// memory that grows with the logarithm of its length.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self", expecting = "statistics of samples"))]
 pub struct Partial {
     pub(super) plan: Plan,
     pub(super) tree: Tree,

@@ -6,36 +6,17 @@ use super::partial::Partial;
 use super::plan::Plan;
 use super::ranges;
 use super::sketch::Sketch;
-use super::tree::{Node, Tree};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer};
+use super::tree::Node;
 
-/// A [`Partial`] as read, before validation.
-#[derive(serde::Deserialize)]
-#[serde(expecting = "statistics of samples")]
-struct Unchecked {
-    plan: Plan,
-    tree: Tree,
-    fragments: Vec<Chunk>,
-    sketches: Vec<Option<Sketch>>,
-    outcomes: Vec<u64>,
-}
+crate::checked!(Partial);
 
-impl<'de> Deserialize<'de> for Partial {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Self::try_from(Unchecked::deserialize(from)?).map_err(D::Error::custom)
-    }
-}
-
-impl TryFrom<Unchecked> for Partial {
-    type Error = &'static str;
-
-    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
-        let Unchecked { plan, tree, fragments, sketches, outcomes } = read;
-        let whole = plan_is_consistent(&plan)
-            && tree.nodes.iter().all(|node| node_fits(node, &plan))
-            && fragments.iter().all(|chunk| fragment_fits(chunk, &plan))
-            && sketches_fit(&sketches, &plan)
+impl Partial {
+    fn checked(self) -> Result<Self, &'static str> {
+        let Self { plan, tree, fragments, sketches, outcomes } = &self;
+        let whole = plan_is_consistent(plan)
+            && tree.nodes.iter().all(|node| node_fits(node, plan))
+            && fragments.iter().all(|chunk| fragment_fits(chunk, plan))
+            && sketches_fit(sketches, plan)
             && outcomes.len() == plan.outcomes;
         if !whole {
             return Err("the parts of this partial result do not fit together");
@@ -47,7 +28,7 @@ impl TryFrom<Unchecked> for Partial {
         if !in_order || ranges::overlap(&nodes, &parts).is_some() {
             return Err("the samples of this partial result overlap");
         }
-        Ok(Self { plan, tree, fragments, sketches, outcomes })
+        Ok(self)
     }
 }
 

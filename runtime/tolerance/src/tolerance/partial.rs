@@ -1,13 +1,11 @@
 //! Part of the samples of a run, to be merged with others.
 
-use core::ops::Range;
-
 use eigentol_statistics::summary::Partial;
 
 use super::result::MonteCarlo;
 use super::run::{Format, Run};
 use super::solver::{LEFT_NOMINAL_BRANCH, Numbered};
-use super::{Fingerprint, Sample, Statistics};
+use super::{Sample, Statistics};
 use crate::Error;
 use crate::modes::Family;
 
@@ -22,7 +20,8 @@ pub(super) const VARIABLES: &str = "variables with a tolerance";
 /// With the feature `serde` it can be written and read back, by the same version of the format only. In JSON, numbers
 /// keep their last digit only if the reader preserves it, as `serde_json` does with its feature `float_roundtrip`.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self", expecting = "a part of a Monte Carlo run"))]
 #[non_exhaustive]
 pub struct PartialMonteCarlo {
     pub(super) format: Format,
@@ -52,31 +51,7 @@ impl PartialMonteCarlo {
         Ok(())
     }
 
-    /// The ranges of samples that are done, sorted and disjoint.
-    #[must_use]
-    pub fn ranges(&self) -> Vec<Range<u64>> {
-        self.run.ranges()
-    }
-
-    /// The ranges of samples that are missing, sorted and disjoint.
-    #[must_use]
-    pub fn missing(&self) -> Vec<Range<u64>> {
-        self.run.missing()
-    }
-
-    /// Refuses an incomplete run.
-    ///
-    /// # Errors
-    /// [`Error::SamplesMissing`], which lists the gaps.
-    pub fn check_complete(&self) -> Result<(), Error> {
-        self.run.check_complete()
-    }
-
-    /// Identifies the run: equal for parts that can be merged.
-    #[must_use]
-    pub fn fingerprint(&self) -> &Fingerprint {
-        &self.run.fingerprint
-    }
+    crate::of_run!();
 
     /// Statistics of the samples done so far.
     #[must_use]
@@ -131,45 +106,25 @@ impl PartialMonteCarlo {
     }
 }
 
-/// A [`PartialMonteCarlo`] as read, before validation.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(expecting = "a part of a Monte Carlo run")]
-struct Unchecked {
-    format: Format,
-    run: Run,
-    kept: Option<Vec<Numbered>>,
-    side_by_side: bool,
-    clustered: bool,
-    family: Family,
-}
+eigentol_statistics::checked!(PartialMonteCarlo);
 
 #[cfg(feature = "serde")]
-impl TryFrom<Unchecked> for PartialMonteCarlo {
-    type Error = &'static str;
-
-    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
-        let all = Self {
-            format: read.format,
-            run: read.run,
-            kept: read.kept,
-            side_by_side: read.side_by_side,
-            clustered: read.clustered,
-            family: read.family,
-        };
-        let quantities = (all.run.parts.first()).map_or(0, |part| part.plan().quantities());
-        all.run.check(quantities, LEFT_NOMINAL_BRANCH)?;
-        let of_each_mode = match all.family {
+impl PartialMonteCarlo {
+    fn checked(self) -> Result<Self, &'static str> {
+        let quantities = (self.run.parts.first()).map_or(0, |part| part.plan().quantities());
+        self.run.check(quantities, LEFT_NOMINAL_BRANCH)?;
+        let of_each_mode = match self.family {
             Family::Undamped => 1,
             Family::General => 2,
         };
-        let numbers = all.kept.iter().flatten().map(|(number, _)| *number);
-        let covered = all.ranges().into_iter().flatten();
-        let kept = all.kept.is_none() || numbers.eq(covered);
-        let one = all.run.parts.len() == 1;
-        let drawn = all.sequence().is_some();
+        let numbers = self.kept.iter().flatten().map(|(number, _)| *number);
+        let covered = self.ranges().into_iter().flatten();
+        let kept = self.kept.is_none() || numbers.eq(covered);
+        let one = self.run.parts.len() == 1;
+        let drawn = self.sequence().is_some();
         if quantities.is_multiple_of(of_each_mode) && kept && one && drawn {
-            Ok(all)
+            Ok(self)
         } else {
             Err("the parts of these samples do not fit together")
         }

@@ -155,3 +155,36 @@ impl Run {
         }
     }
 }
+
+/// What the parts of any run tell of it, inside of their implementation.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! of_run {
+    () => {
+        /// The ranges of samples that are done, sorted and disjoint.
+        #[must_use]
+        pub fn ranges(&self) -> Vec<::core::ops::Range<u64>> {
+            self.run.ranges()
+        }
+
+        /// The ranges of samples that are missing, sorted and disjoint.
+        #[must_use]
+        pub fn missing(&self) -> Vec<::core::ops::Range<u64>> {
+            self.run.missing()
+        }
+
+        /// Refuses an incomplete run.
+        ///
+        /// # Errors
+        /// [`Error::SamplesMissing`], which lists the gaps.
+        pub fn check_complete(&self) -> Result<(), $crate::Error> {
+            self.run.check_complete()
+        }
+
+        /// Identifies the run: equal for parts that can be merged.
+        #[must_use]
+        pub fn fingerprint(&self) -> &$crate::tolerance::Fingerprint {
+            &self.run.fingerprint
+        }
+    };
+}

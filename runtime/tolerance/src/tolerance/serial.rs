@@ -5,42 +5,18 @@ use eigentol_statistics::Joint;
 use super::Tolerances;
 use crate::algebra::{Matrix, Vector};
 
-/// [`Tolerances`] as read, before validation.
-#[derive(serde::Deserialize)]
-#[serde(expecting = "tolerances")]
-pub(super) struct Unchecked {
-    half_widths: Vector,
-    sigma_level: f64,
-    sigmas: Vector,
-    shifts: Vector,
-    correlation: Option<Matrix>,
-    factor: Matrix,
-    joint: Option<(Joint, Vector)>,
-}
+eigentol_statistics::checked!(Tolerances);
 
-impl TryFrom<Unchecked> for Tolerances {
-    type Error = &'static str;
-
-    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
-        let count = read.half_widths.len();
+impl Tolerances {
+    fn checked(self) -> Result<Self, &'static str> {
+        let count = self.half_widths.len();
         let square = |matrix: &Matrix| (matrix.row_count(), matrix.column_count()) == (count, count);
         let together = |(joint, nominal): &(Joint, Vector)| joint.len() == count && nominal.len() == count;
-        let fits = read.sigmas.len() == count
-            && read.shifts.len() == count
-            && square(&read.factor)
-            && read.correlation.as_ref().is_none_or(square)
-            && read.joint.as_ref().is_none_or(together);
-        if !fits {
-            return Err("there is not one tolerance for each variable");
-        }
-        Ok(Self {
-            half_widths: read.half_widths,
-            sigma_level: read.sigma_level,
-            sigmas: read.sigmas,
-            shifts: read.shifts,
-            correlation: read.correlation,
-            factor: read.factor,
-            joint: read.joint,
-        })
+        let fits = self.sigmas.len() == count
+            && self.shifts.len() == count
+            && square(&self.factor)
+            && self.correlation.as_ref().is_none_or(square)
+            && self.joint.as_ref().is_none_or(together);
+        if fits { Ok(self) } else { Err("there is not one tolerance for each variable") }
     }
 }

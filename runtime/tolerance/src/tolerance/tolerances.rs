@@ -35,7 +35,7 @@ use crate::{Description, Error};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "super::serial::Unchecked"))]
+#[cfg_attr(feature = "serde", serde(remote = "Self", expecting = "tolerances"))]
 pub struct Tolerances {
     pub(super) half_widths: Vector,
     pub(super) sigma_level: f64,

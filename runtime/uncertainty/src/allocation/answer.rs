@@ -1,6 +1,5 @@
 use eigentol_results::numbers::{converted, given, heading, number, rough, short};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, Table, displayed};
+use eigentol_results::{Answer, Columns, Findings, Table, at_point, displayed};
 
 use crate::allocation::Allocation;
 use crate::judge::chance;
@@ -10,17 +9,11 @@ use crate::judge::chance;
 impl Answer for Allocation {
     const KIND: &'static str = "allocation";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let mut said = Findings::titled(format!(
-            "{}: allocation, cost {} instead of {}",
-            title(&self.description, &self.inputs),
-            rough(self.cost),
-            rough(self.cost_before)
-        ));
+        let mut said =
+            self.titled(format_args!("allocation, cost {} instead of {}", rough(self.cost), rough(self.cost_before)));
         self.variables(&mut said);
         self.requirements(&mut said);
         let mut cost = Table::new("cost");

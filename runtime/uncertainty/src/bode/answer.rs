@@ -2,7 +2,6 @@
 
 use eigentol_results::numbers::{converted, given, number, percent, short, with_unit};
 use eigentol_results::relevance::{EVERYTHING, shown};
-use eigentol_results::title::title_along;
 use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
 
 use super::{Bands, Bode};
@@ -28,8 +27,7 @@ impl Answer for Bode {
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title_along(d, &self.inputs, self.input);
-        let mut said = Findings::titled(format!("{title}: forced vibration"));
+        let mut said = self.titled("forced vibration");
         not_reached(&mut said, self.unreached);
         let points = shown(self.points.len());
         let rows = self.rows();

@@ -1,7 +1,5 @@
 //! Results common to all methods.
 
-use core::fmt;
-
 use crate::algebra::{Matrix, Vector};
 use crate::judge::Doubt;
 use crate::response::Response;
@@ -103,16 +101,14 @@ pub enum Method {
     Resolvent(Points),
 }
 
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::FirstOrder => f.write_str("first order"),
-            Self::SecondOrder => f.write_str("second order"),
-            Self::Sampled(Points::Random) => f.write_str("random samples"),
-            Self::Sampled(Points::LatinHypercube) => f.write_str("Latin hypercube samples"),
-            Self::Sampled(Points::Sobol) => f.write_str("samples at scrambled Sobol' points"),
-            Self::Resolvent(_) => f.write_str("samples of the resolvent near the nominal design"),
-        }
+eigentol_solve::worded! {
+    Method {
+        Self::FirstOrder => "first order",
+        Self::SecondOrder => "second order",
+        Self::Sampled(Points::Random) => "random samples",
+        Self::Sampled(Points::LatinHypercube) => "Latin hypercube samples",
+        Self::Sampled(Points::Sobol) => "samples at scrambled Sobol' points",
+        Self::Resolvent(_) => "samples of the resolvent near the nominal design",
     }
 }
 

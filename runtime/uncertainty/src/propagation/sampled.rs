@@ -1,7 +1,5 @@
 //! Sampling: every design is solved anew, and every failure is counted.
 
-use core::ops::Range;
-
 use super::gather::{Gathered, Task, nominal_scales};
 use super::model::Designs;
 use super::result::{Method, Propagation};
@@ -19,7 +17,8 @@ use eigentol_statistics::summary::Partial;
 ///
 /// With the feature `serde` it can be serialised; only the same version of the format can be read.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self", expecting = "samples of responses"))]
 #[non_exhaustive]
 pub struct Samples {
     format: Format,
@@ -109,31 +108,7 @@ impl Samples {
         self.run.merge(other.run)
     }
 
-    /// The ranges of samples that are done, sorted and disjoint.
-    #[must_use]
-    pub fn ranges(&self) -> Vec<Range<u64>> {
-        self.run.ranges()
-    }
-
-    /// The ranges of samples that are missing, sorted and disjoint.
-    #[must_use]
-    pub fn missing(&self) -> Vec<Range<u64>> {
-        self.run.missing()
-    }
-
-    /// Fails if the run is incomplete.
-    ///
-    /// # Errors
-    /// [`Error::SamplesMissing`], which lists the gaps.
-    pub fn check_complete(&self) -> Result<(), Error> {
-        self.run.check_complete()
-    }
-
-    /// Identifies the run: equal for parts that can be merged.
-    #[must_use]
-    pub fn fingerprint(&self) -> &Fingerprint {
-        &self.run.fingerprint
-    }
+    eigentol_tolerance::of_run!();
 
     /// Outcomes of the samples.
     #[must_use]
@@ -193,39 +168,19 @@ pub(super) fn propagation_of(
     })
 }
 
-/// [`Samples`] as read, before validation.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(expecting = "samples of responses")]
-struct Unchecked {
-    format: Format,
-    points: Points,
-    wanted: Vec<Response>,
-    run: Run,
-    nominal: Vec<Option<f64>>,
-    variables: (Vec<usize>, usize),
-}
+eigentol_statistics::checked!(Samples);
 
 #[cfg(feature = "serde")]
-impl TryFrom<Unchecked> for Samples {
-    type Error = &'static str;
-
-    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
-        let (varied, variables) = &read.variables;
-        let quantities = read.wanted.len() + varied.len();
-        let outcomes = Outcome::ALL.len();
-        read.run.check(quantities, outcomes)?;
-        let fits = read.nominal.len() == read.wanted.len() && varied.iter().all(|variable| variable < variables);
-        if !fits {
-            return Err("the parts of these samples do not fit together");
+impl Samples {
+    fn checked(self) -> Result<Self, &'static str> {
+        let (varied, variables) = &self.variables;
+        let quantities = self.wanted.len() + varied.len();
+        self.run.check(quantities, Outcome::ALL.len())?;
+        if self.nominal.len() == self.wanted.len() && varied.iter().all(|variable| variable < variables) {
+            Ok(self)
+        } else {
+            Err("the parts of these samples do not fit together")
         }
-        Ok(Self {
-            format: read.format,
-            points: read.points,
-            wanted: read.wanted,
-            run: read.run,
-            nominal: read.nominal,
-            variables: read.variables,
-        })
     }
 }

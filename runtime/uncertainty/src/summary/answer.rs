@@ -1,8 +1,7 @@
 use eigentol_results::numbers::{converted, heading, number, or_dash, rough};
 use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
 use eigentol_results::shares::mostly;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Listed, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, Listed, at_point, displayed};
 
 use crate::Quantity;
 use crate::clusters::ClusterTolerance;
@@ -16,14 +15,11 @@ use crate::tolerance::{ModeTolerance, Spread, far, spread_of, unmoved};
 impl Answer for Summary {
     const KIND: &'static str = "summary";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: what tolerances do to the frequencies"));
+        let mut said = self.titled("what tolerances do to the frequencies");
         let moved = self.first.varies && !self.unmoved();
         self.frequencies(&mut said, moved);
         if moved {

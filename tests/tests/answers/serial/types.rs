@@ -4,17 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Types that cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 35] = [
+const NOT_WRITTEN: [(&str, &str); 32] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
     ("BatchPoint", "borrows its values"),
     ("Choices", "holds functions"),
     ("Cost", "a function"),
-    ("Curvature", "chooses kernels"),
     ("Coordinate", "written by hand"),
     ("DesignVariable", "written by hand"),
-    ("Directional", "chooses kernels"),
     ("DeviatingInputs", "kernels"),
     ("Dual", "a scalar of kernels"),
     ("Extent", "a property of kernels"),
@@ -30,7 +28,6 @@ const NOT_WRITTEN: [(&str, &str); 35] = [
     ("Derived", "derivatives on their way to a text"),
     ("Variable", "a name and a unit for texts"),
     ("PartialMatrices", "an intermediate result of kernels"),
-    ("PencilAlong", "borrows its values"),
     ("Requirements", "borrows a mechanism"),
     ("Responses", "borrows a mechanism"),
     ("Sampling", "holds a function"),

@@ -2,7 +2,7 @@
 
 mod augmented;
 #[cfg(test)]
-mod compared;
+mod compared_tests;
 mod composite;
 mod deviation;
 mod flexible;
@@ -13,7 +13,7 @@ mod newton_euler;
 mod variation;
 
 #[cfg(test)]
-pub(crate) use compared::compared;
+pub(crate) use compared_tests::compared;
 pub(super) use composite::mass_matrix;
 pub(super) use deviation::{Direction, deviation, size};
 pub(super) use flexible::{BeamInertia, FromStations};

@@ -6,8 +6,6 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::inertia::{Variation, mass_matrix, variation_at_rest};
 use crate::mechanics::loads::strained;
 use crate::mechanics::motion::for_inertia;
-#[cfg(test)]
-use crate::mechanics::setup::vanish;
 use crate::mechanics::setup::{Context, ForceSelection, Mirrored, at_rest, columns, mirrored};
 
 use super::columns::{Columns, folded};
@@ -133,19 +131,4 @@ fn still(g: &mut Graph, context: &Context, roots: &[ExprId]) -> Vec<ExprId> {
 
 fn all_still(g: &mut Graph, context: &Context, columns: &Columns) -> Columns {
     still(g, context, &columns.concat()).chunks(columns.len().max(1)).map(<[_]>::to_vec).collect()
-}
-
-/// Asserts that both ways give the same, and counts the entries that are not zero; `None` if there is one way only.
-#[cfg(test)]
-pub(crate) fn compared(g: &mut Graph, context: &Context, equations: &Equations) -> Option<[usize; 3]> {
-    let inertial = Inertial::new(g, context, equations);
-    let walked = inertial.by_walks(g)?.map(|matrix| matrix.concat());
-    let differentiated = inertial.by_differentiation(g).map(|matrix| matrix.concat());
-    for (walked, differentiated) in walked.iter().zip(&differentiated) {
-        let differences: Vec<ExprId> =
-            walked.iter().zip(differentiated).map(|(&one, &other)| g.sub(one, other)).collect();
-        let equal = vanish(g, context, &differences);
-        assert!(equal.iter().all(|equal| *equal), "{equal:?}");
-    }
-    Some(differentiated.map(|matrix| vanish(g, context, &matrix).into_iter().filter(|zero| !zero).count()))
 }

@@ -17,10 +17,12 @@
 
 mod columns;
 mod inertial;
+#[cfg(test)]
+mod inertial_tests;
 mod jacobians;
 mod matrices;
 
 #[cfg(test)]
-pub(super) use inertial::compared;
+pub(super) use inertial_tests::compared;
 pub(super) use jacobians::Jacobians;
 pub(super) use matrices::{Linear, linear_arrays};

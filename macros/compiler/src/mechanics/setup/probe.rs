@@ -2,7 +2,6 @@
 //! random states, at all of which a value must vanish up to rounding.
 
 use crate::algebra::{Disturbed, Evaluator, ExprId, Graph, SymbolId};
-use crate::model::mechanism::CoordinateQuantity;
 
 use super::context::Context;
 use super::sections::Mirrored;
@@ -103,10 +102,7 @@ impl RandomState {
         }
         if let Some(id) = position(&symbols.q.ids).and_then(|k| context.topology.free.get(k)) {
             let coordinate = &context.mechanism.coordinates[id.index()];
-            return match coordinate.quantity {
-                CoordinateQuantity::Angle => 1.2 * signed,
-                CoordinateQuantity::Displacement => 0.3 * signed,
-            };
+            return coordinate.quantity.either(1.2 * signed, 0.3 * signed);
         }
         signed
     }

@@ -35,14 +35,12 @@ impl Resolver<'_> {
         if body.terms.len() > 1 || beam.hole {
             let message = "`beam` stands alone: it cannot be part of a sum";
             let help = "weld another body to its root or its tip by a `fixed` joint";
-            self.diagnostics.error_with_help(word, message, help);
-            return None;
+            return self.refuse_with_help(word, message, help);
         }
         if let Some(placement) = &beam.placement {
             let message = "a beam starts at the origin of its frame";
             let help = "place the joint instead";
-            self.diagnostics.error_with_help(placement.keyword, message, help);
-            return None;
+            return self.refuse_with_help(placement.keyword, message, help);
         }
         static SIGNATURE: Row = BEAM;
         let arguments = self.arguments(&beam.shape, &SIGNATURE);
@@ -125,8 +123,7 @@ impl Resolver<'_> {
         {
             let message = "`up` must be perpendicular to `along`";
             let help = "it is the direction of the height of the section";
-            self.diagnostics.error_with_help(at.extent, message, help);
-            return None;
+            return self.refuse_with_help(at.extent, message, help);
         }
         let across = simplify::cross(&up, &along);
         Some([along, across, up])
@@ -151,8 +148,7 @@ impl Resolver<'_> {
         if torsion + y + z == 0 && !stretches {
             let message = "this beam has no coordinates: it is rigid";
             let help = "give `bending: 5`, `bending_y`, `bending_z` or `torsion`, or use a `rod`";
-            self.diagnostics.error_with_help(word, message, help);
-            return None;
+            return self.refuse_with_help(word, message, help);
         }
         Some([torsion, y, z])
     }
@@ -174,8 +170,7 @@ impl Resolver<'_> {
         let is_number = matches!(value.kind, ValueKind::Number(..));
         if !is_number {
             let message = "`shear` is `static` or a number of coordinates";
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         let shear = self.whole(value, "shear", 0..=MOST)?;
         let along = |bends: usize| if bends > 0 { shear } else { 0 };
@@ -205,8 +200,7 @@ impl Resolver<'_> {
             return Some(number as usize);
         }
         let message = format!("`{name}` is a whole number from {} to {}", range.start(), range.end());
-        self.diagnostics.error(value.extent, message);
-        None
+        self.refuse(value.extent, message)
     }
 
     /// A beam that turns about its own axis is steady only if it is the same in all directions.
@@ -243,8 +237,7 @@ impl Resolver<'_> {
             return Some(());
         };
         let message = format!("a beam that spins and {problem} has no steady motion");
-        self.diagnostics.error_with_help(at.extent, message, help);
-        None
+        self.refuse_with_help(at.extent, message, help)
     }
 
     /// Shear that follows from the moments is derived for straight beams of sections that couple no strains and that
@@ -262,17 +255,11 @@ impl Resolver<'_> {
             return Some(());
         };
         let help = "give shear coordinates of its own: `shear: 4`";
-        self.diagnostics.error_with_help(given.get("shear")?.extent, message, help);
-        None
+        self.refuse_with_help(given.get("shear")?.extent, message, help)
     }
 
     pub(super) fn require_of_beam(&mut self, name: &Ident, what: &str, value: &Expr, dimension: Dimension, at: &Value) {
-        self.requirements.push(Requirement {
-            what: format!("the {what} of `{name}`"),
-            values: vec![value.clone()],
-            demand: Demand::Positive(dimension),
-            extent: at.extent,
-        });
+        self.require(format!("the {what} of `{name}`"), [value.clone()], Demand::Positive(dimension), at.extent);
     }
 
     /// The series of a curved axis hold up to a full turn.
@@ -284,8 +271,7 @@ impl Resolver<'_> {
         if matches!(rest, Expr::Number(rest) if rest <= 0.0) {
             let message = "the axis of this beam turns by a full turn or more";
             let help = "put two beams in series, each with its part of the turn";
-            self.diagnostics.error_with_help(word, message, help);
-            return None;
+            return self.refuse_with_help(word, message, help);
         }
         let quantity = format!("rest of a full turn beside the prebend of {name}, squared");
         declared.positive.push((quantity, rest));
@@ -348,12 +334,7 @@ impl Resolver<'_> {
                 self.diagnostics.error_with_help(extent, message, help);
                 is_complete = false;
             } else if declared.table.is_by_numbers() {
-                self.requirements.push(Requirement {
-                    what: format!("the {what} of `{name}`"),
-                    values: values.to_vec(),
-                    demand: Demand::Positive(dimension),
-                    extent: word.into(),
-                });
+                self.require(format!("the {what} of `{name}`"), values, Demand::Positive(dimension), word);
             }
         }
         is_complete.then_some(())

@@ -6,8 +6,6 @@ mod shapes;
 
 use std::rc::Rc;
 
-use proc_macro2::Ident;
-
 use self::quantities::Quantities;
 use self::shapes::SYNONYMS;
 pub(super) use self::shapes::{BEAM, Row, SHAFT, SHAPES, SUPERELEMENT};
@@ -16,17 +14,14 @@ use super::joints::kinds::Kind;
 use super::resolver::Resolver;
 use crate::model::mechanism::{Body, Joint, Part};
 use crate::model::rules::composite::{GivenInertia, Welded};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::welded::groups;
-use crate::syntax::ast::{self, ItemKind, Term, Unread};
+use crate::syntax::ast::{self, Term, Unread};
 
 impl Resolver<'_> {
     pub(super) fn bodies(&mut self) -> Vec<Body> {
         let mut bodies = Vec::new();
-        for item in &self.ast.items {
-            let ItemKind::Body(body) = &item.kind else {
-                continue;
-            };
+        for body in self.ast.all::<ast::Body>() {
             let parts = self.parts(body);
             self.parts.push(parts.clone());
             bodies.extend(parts.map(|parts| Body { name: body.name.clone(), parts }));
@@ -45,13 +40,7 @@ impl Resolver<'_> {
         if welds != known || self.scope.is_ambiguous || self.ast.unread.iter().any(Unread::may_connect) {
             return;
         }
-        let names: Vec<String> = self
-            .ast
-            .items
-            .iter()
-            .filter(|item| matches!(item.kind, ItemKind::Body(_)))
-            .filter_map(|item| item.kind.name().map(Ident::to_string))
-            .collect();
+        let names: Vec<String> = self.ast.all::<ast::Body>().map(|body| body.name.to_string()).collect();
         for group in groups(names.len(), joints) {
             let bodies = group.into_iter().map(|member| {
                 let index = member.body.index();
@@ -66,12 +55,9 @@ impl Resolver<'_> {
             let Some(first) = given.first() else {
                 continue;
             };
-            self.requirements.push(Requirement {
-                what: format!("the inertia of `{}`", first.body),
-                values: given.iter().flat_map(|given| given.central.clone()).collect(),
-                extent: first.extent,
-                demand: Demand::Inertia(Rc::new(Welded { bodies, given })),
-            });
+            let (what, extent) = (format!("the inertia of `{}`", first.body), first.extent);
+            let values: Vec<_> = given.iter().flat_map(|given| given.central.clone()).collect();
+            self.require(what, values, Demand::Inertia(Rc::new(Welded { bodies, given })), extent);
         }
     }
 
@@ -92,8 +78,7 @@ impl Resolver<'_> {
         if let Some(speed) = &body.spinning {
             let message = "only a `beam` or a `shaft` can spin about its own bent axis";
             let help = "turn the body by a joint: `revolute(x) ... driven at omega`";
-            self.diagnostics.error_with_help(speed.extent, message, help);
-            return None;
+            return self.refuse_with_help(speed.extent, message, help);
         }
         let right = self.first_is_solid(body);
         let resolved: Vec<Option<Part>> =
@@ -101,12 +86,12 @@ impl Resolver<'_> {
         right?;
         let parts: Vec<Part> = resolved.into_iter().collect::<Option<_>>()?;
         if let Some(hole) = body.terms.iter().find(|term| term.hole) {
-            self.requirements.push(Requirement {
-                what: format!("the holes of `{}`", body.name),
-                values: Vec::new(),
-                demand: Demand::Holes(Rc::from(parts.as_slice())),
-                extent: (&hole.shape.word).into(),
-            });
+            self.require(
+                format!("the holes of `{}`", body.name),
+                Vec::new(),
+                Demand::Holes(Rc::from(parts.as_slice())),
+                &hole.shape.word,
+            );
         }
         Some(parts)
     }
@@ -118,14 +103,12 @@ impl Resolver<'_> {
         let word = &massless.shape.word;
         if body.terms.len() > 1 || massless.hole {
             let message = "`massless` stands alone: it cannot be part of a sum";
-            self.diagnostics.error(word, message);
-            return None;
+            return self.refuse(word, message);
         }
         if let Some(placement) = &massless.placement {
             let message = "a massless body has no shape to place";
             let help = "place the joint instead";
-            self.diagnostics.error_with_help(placement.keyword, message, help);
-            return None;
+            return self.refuse_with_help(placement.keyword, message, help);
         }
         Some(Vec::new())
     }
@@ -134,8 +117,7 @@ impl Resolver<'_> {
         let first = body.terms.first()?;
         if first.hole {
             let message = "the first shape of a body cannot be a hole: there is nothing to cut";
-            self.diagnostics.error(&first.shape.word, message);
-            return None;
+            return self.refuse(&first.shape.word, message);
         }
         Some(())
     }

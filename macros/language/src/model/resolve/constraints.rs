@@ -13,8 +13,8 @@ use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Constraint, ConstraintLaw};
-use crate::model::rules::physical::{Demand, Requirement};
-use crate::syntax::ast::{self, ItemKind};
+use crate::model::rules::physical::Demand;
+use crate::syntax::ast;
 
 const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
 
@@ -102,10 +102,7 @@ const SYNONYMS: [(&str, &str); 33] = [
 impl Resolver<'_> {
     pub(super) fn constraints(&mut self) -> Vec<Constraint> {
         let mut constraints = Vec::new();
-        for item in &self.ast.items {
-            let ItemKind::Constraint(constraint) = &item.kind else {
-                continue;
-            };
+        for constraint in self.ast.all::<ast::Constraint>() {
             let (law, exerted) = self.constraint(constraint).unzip();
             self.exerted.push(exerted);
             constraints.extend(law.map(|law| Constraint { name: constraint.name.clone(), law }));
@@ -134,27 +131,26 @@ impl Resolver<'_> {
             return Some(());
         };
         let kind = Kind::find(joint)?;
-        self.diagnostics.error_with_help(
+        self.refuse_with_help(
             &constraint.law.word,
             format!("unknown constraint `{word}`"),
             format!(
                 "it is a joint, and a joint may close a loop: `joint {}: {} from BODY to BODY;`",
                 constraint.name, kind.example
             ),
-        );
-        None
+        )
     }
 
     /// A required length above zero; `what` names it.
     fn positive_length(&mut self, constraint: &ast::Constraint, arguments: &Arguments, name: &str) -> Option<Expr> {
         let value = arguments.get(name)?;
         let length = self.scalar_of(value, Dimension::LENGTH, &format!("`{name}`"))?;
-        self.requirements.push(Requirement {
-            what: format!("the {name} of `{}`", constraint.name),
-            values: vec![length.clone()],
-            demand: Demand::Positive(Dimension::LENGTH),
-            extent: value.extent,
-        });
+        self.require(
+            format!("the {name} of `{}`", constraint.name),
+            [length.clone()],
+            Demand::Positive(Dimension::LENGTH),
+            value.extent,
+        );
         Some(length)
     }
 

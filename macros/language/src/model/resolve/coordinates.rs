@@ -7,7 +7,7 @@ use super::joints::kinds::Kind;
 use crate::base::dimension::Dimension;
 use crate::base::ids::JointId;
 use crate::model::mechanism::CoordinateQuantity;
-use crate::syntax::ast::{Ast, ItemKind, Joint, JointClause};
+use crate::syntax::ast::{Ast, Joint, JointClause};
 
 /// A coordinate as declared, even if the rest of its joint is wrong. Its index in the list is its id.
 #[derive(Clone, Debug)]
@@ -50,26 +50,17 @@ impl DeclaredMotion {
 
 /// The dimension of a coordinate.
 pub(super) fn dimension(quantity: CoordinateQuantity) -> Dimension {
-    match quantity {
-        CoordinateQuantity::Angle => Dimension::NONE,
-        CoordinateQuantity::Displacement => Dimension::LENGTH,
-    }
+    quantity.either(Dimension::NONE, Dimension::LENGTH)
 }
 
 /// The dimension of a coordinate's rate.
 pub(super) fn rate_dimension(quantity: CoordinateQuantity) -> Dimension {
-    match quantity {
-        CoordinateQuantity::Angle => Dimension::RATE,
-        CoordinateQuantity::Displacement => Dimension::SPEED,
-    }
+    quantity.either(Dimension::RATE, Dimension::SPEED)
 }
 
 /// All joints in order.
 pub(super) fn joints(ast: &Ast) -> impl Iterator<Item = &Joint> {
-    ast.items.iter().filter_map(|item| match &item.kind {
-        ItemKind::Joint(joint) => Some(joint),
-        _ => None,
-    })
+    ast.all()
 }
 
 /// All coordinates in the order of their joints.

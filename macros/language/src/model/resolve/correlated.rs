@@ -7,14 +7,13 @@ use super::scope::Meaning;
 use crate::base::ids::DesignId;
 use crate::base::names::{fits, written};
 use crate::model::mechanism::{Correlation, DesignVariable};
-use crate::syntax::ast::{ItemKind, Unread};
+use crate::syntax::ast::{self, Unread};
 
 impl Resolver<'_> {
     pub(super) fn correlations(&mut self, design: &[DesignVariable]) -> Vec<Correlation> {
         let (mut correlations, mut known) = (Vec::new(), BTreeSet::new());
         let names: Vec<String> = design.iter().map(|one| written(&one.name.to_string()).into_owned()).collect();
-        for item in &self.ast.items {
-            let ItemKind::Correlated(of) = &item.kind else { continue };
+        for of in self.ast.all::<ast::Correlated>() {
             let (mut meant, mut all_known) = (Vec::new(), true);
             for (pattern, extent) in &of.names {
                 let before = meant.len();

@@ -9,18 +9,16 @@ use super::typed::{Quantity, Typed, ValueContext};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{Curve, CurveArgument};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::simplify;
-use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
+use crate::syntax::ast::{self, Value, ValueKind};
 use eigentol_symbolic::base::spline::Spline;
 
 impl Resolver<'_> {
     pub(super) fn curves(&mut self) {
-        for item in &self.ast.items {
-            if let ItemKind::Curve(declared) = &item.kind {
-                let curve = self.curve(declared);
-                self.curves.push(curve);
-            }
+        for declared in self.ast.all() {
+            let curve = self.curve(declared);
+            self.curves.push(curve);
         }
     }
 
@@ -36,25 +34,21 @@ impl Resolver<'_> {
         if x.len() != y.len() {
             let message = format!("each argument has a value: there are {} arguments and {} values", x.len(), y.len());
             let commas = y.len() > x.len() && elements(values).is_some_and(decimal_commas);
-            self.report(values.extent, message, commas.then(|| DECIMAL_POINT.into()));
-            return None;
+            return self.refuse_with(values.extent, message, commas.then(|| DECIMAL_POINT.into()));
         }
         if x.len() < 2 {
             let message = "a curve goes through at least two points";
-            self.diagnostics.error(arguments.extent, message);
-            return None;
+            return self.refuse(arguments.extent, message);
         }
         if let Some(k) = (1..x.len()).find(|&k| x[k] <= x[k - 1]) {
             let at = elements(arguments)?[k].extent;
             let message = "the arguments of a curve grow: this one is not greater than the one before";
-            self.diagnostics.error(at, message);
-            return None;
+            return self.refuse(at, message);
         }
         let spline = Spline::through(&text, &x, &y);
         if !spline.pieces().as_flattened().iter().all(|c| c.is_finite()) {
             let message = "this curve is outside the range of a 64-bit number";
-            self.diagnostics.error(values.extent, message);
-            return None;
+            return self.refuse(values.extent, message);
         }
         Some(Curve { spline, argument: argument.dimension(), unit, value: value.dimension() })
     }
@@ -72,19 +66,13 @@ impl Resolver<'_> {
         let [given] = arguments else {
             let message = format!("`{name}` takes {}, not {}", count(1), arguments.len());
             let help = (arguments.len() > 1 && decimal_commas(arguments)).then(|| DECIMAL_POINT.into());
-            self.report(name, message, help);
-            return None;
+            return self.refuse_with(name, message, help);
         };
         let (argument, quantity) = self.scalar(given, value_context)?;
         let what = format!("the argument of `{name}`");
         self.expect(quantity, curve.argument, &what, given)?;
         if is_known_before_the_motion(&argument) {
-            self.requirements.push(Requirement {
-                what,
-                values: vec![argument.clone()],
-                demand: Demand::OnCurve(curve.clone()),
-                extent: given.extent,
-            });
+            self.require(what, [argument.clone()], Demand::OnCurve(curve.clone()), given.extent);
             let asked = CurveArgument { curve: curve.clone(), argument: argument.clone() };
             if !self.curve_arguments.contains(&asked) {
                 self.curve_arguments.push(asked);

@@ -3,7 +3,7 @@
 use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::model::expression::{Expr, Vector};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::simplify;
 use crate::syntax::ast::{Value, ValueKind};
 
@@ -22,19 +22,13 @@ impl Resolver<'_> {
                 _ => "a direction is x, y, z, -x, -y, -z or a vector such as `[1, 0, 1]`",
             };
             let message = format!("unknown direction `{name}`");
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
+            return self.refuse_with_help(name, message, help);
         }
         let (vector, _) = self.vector(value, value_context)?;
         if let [Expr::Number(x), Expr::Number(y), Expr::Number(z)] = vector {
             return self.constant_direction([x, y, z], value);
         }
-        self.requirements.push(Requirement {
-            what: "this direction".to_string(),
-            values: vector.to_vec(),
-            demand: Demand::Direction,
-            extent: value.extent,
-        });
+        self.require("this direction", vector.clone(), Demand::Direction, value.extent);
         let length = simplify::norm(&vector);
         Some(vector.map(|component| simplify::divide(component, length.clone())))
     }
@@ -44,8 +38,7 @@ impl Resolver<'_> {
         // Scaled first, so that the length of tiny and huge vectors can be computed.
         let largest = vector.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         if largest == 0.0 {
-            self.diagnostics.error(value.extent, "a zero vector has no direction");
-            return None;
+            return self.refuse(value.extent, "a zero vector has no direction");
         }
         let scaled = vector.map(|component| component / largest);
         let length = scaled.iter().map(|a| a * a).sum::<f64>().sqrt();

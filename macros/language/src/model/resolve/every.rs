@@ -11,7 +11,7 @@ use crate::base::ids::CoordinateId;
 use crate::base::nearest::suggestion;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{CoordinateQuantity, Force, ForceLaw};
-use crate::syntax::ast::{Every, ItemKind};
+use crate::syntax::ast::Every;
 
 type Row = Signature<()>;
 
@@ -73,10 +73,8 @@ impl Resolver<'_> {
     pub(super) fn forces_of_every(&mut self, existing: &[Force]) -> Vec<Force> {
         let mut given = QUANTITIES.map(|_| Given::default());
         let mut forces = Vec::new();
-        for item in &self.ast.items {
-            if let ItemKind::Every(every) = &item.kind {
-                forces.extend(self.forces_of(every, existing, &mut given).unwrap_or_default());
-            }
+        for every in self.ast.all() {
+            forces.extend(self.forces_of(every, existing, &mut given).unwrap_or_default());
         }
         forces
     }
@@ -85,12 +83,8 @@ impl Resolver<'_> {
         let index = self.quantity(&every.quantity);
         let signature = self.signature(&every.law, "law of every coordinate", LAWS, &SYNONYMS)?;
         let arguments = self.arguments(&every.law, signature);
-        let pick = |angle: Expected, displacement: Dimension| {
-            Some(match QUANTITIES[index?].1 {
-                CoordinateQuantity::Angle => angle,
-                CoordinateQuantity::Displacement => displacement.into(),
-            })
-        };
+        let pick =
+            |angle: Expected, displacement: Dimension| Some(QUANTITIES[index?].1.either(angle, displacement.into()));
         let stiffness = pick(Expected::rotary_stiffness(), Dimension::STIFFNESS);
         let stiffness = self.coefficient(&arguments, "stiffness", stiffness);
         let damping = pick(Expected::rotary_damping(), Dimension::DAMPING);
@@ -106,15 +100,13 @@ impl Resolver<'_> {
         let (word, quantity) = QUANTITIES[index];
         if let Some((_, what)) = repeated.iter().find(|(is_repeated, _)| *is_repeated) {
             let message = format!("every {word} has {what} already");
-            self.diagnostics.error(&every.law.word, message);
-            return None;
+            return self.refuse(&every.law.word, message);
         }
         let coordinates = self.free_coordinates(quantity);
         if coordinates.is_empty() && !self.may_have_more_coordinates() {
             let message = format!("no {word} is free");
             let help = "remove this, or let a joint move";
-            self.diagnostics.error_with_help(&every.quantity, message, help);
-            return None;
+            return self.refuse_with_help(&every.quantity, message, help);
         }
         Some(laws(every, forces, &coordinates, stiffness, damping, rest))
     }

@@ -13,7 +13,7 @@ use crate::base::dimension::Dimension;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{CoordinateQuantity, Deviation, Excitation, ExcitationLaw, Frame, Frequency, ShakenBy};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::syntax::ast::{self, Ast, Force, ItemKind, Joint, JointClause, NamedCall, Shake, Unbalance, Value};
 use crate::syntax::parse::GRADE;
 
@@ -91,20 +91,17 @@ impl Resolver<'_> {
             amount.map(Deviation::Amount).or(eccentricity.map(Deviation::Eccentricity)).or(tilt.map(Deviation::Tilt));
         if let (Some(at), Some(Deviation::Eccentricity(_) | Deviation::Tilt(_))) = (&unbalance.at, &deviation) {
             let message = "an eccentricity or a tilt moves the whole body: it has no place";
-            self.diagnostics.error(at.extent, message);
-            return None;
+            return self.refuse(at.extent, message);
         }
         if moves_the_body && self.is_massless(&unbalance.on) {
             let message = format!("`{}` has no mass that could be out of place", unbalance.on);
             let help = "give the `amount` of the unbalance, or name the body that has the mass";
-            self.diagnostics.error_with_help(&unbalance.on, message, help);
-            return None;
+            return self.refuse_with_help(&unbalance.on, message, help);
         }
         let Frame::Body(body) = frame? else {
             let message = "the ground does not turn";
             let help = "an unbalance is `on` a body that a drive turns";
-            self.diagnostics.error_with_help(&unbalance.on, message, help);
-            return None;
+            return self.refuse_with_help(&unbalance.on, message, help);
         };
         Some(Excitation {
             name: unbalance.name.clone(),
@@ -124,24 +121,18 @@ impl Resolver<'_> {
             }
             (Some(grade), None) => {
                 let message = "a grade of balancing holds at a service speed";
-                self.diagnostics.error_with_help(grade.extent, message, GRADE);
-                None
+                self.refuse_with_help(grade.extent, message, GRADE)
             }
             (None, Some(service)) => {
                 let message = format!("`service` is the speed of a `grade`, and `{}` has none", unbalance.name);
-                self.diagnostics.error(service.extent, message);
-                None
+                self.refuse(service.extent, message)
             }
             (None, None) => None,
         }
     }
 
     fn is_massless(&self, body: &Ident) -> bool {
-        let mut bodies = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Body(body) => Some(body),
-            _ => None,
-        });
-        let declared = bodies.find(|x| x.name == *body);
+        let declared = self.ast.all::<ast::Body>().find(|x| x.name == *body);
         declared.is_some_and(|declared| declared.terms.iter().all(|term| term.shape.word == "massless"))
     }
 
@@ -157,37 +148,30 @@ impl Resolver<'_> {
                 let moment = self.vector_or_zero(&arguments, "moment", Expected::moment());
                 if arguments.get("force").or(arguments.get("moment")).is_none() {
                     let message = "`harmonic` at a point needs a `force` or a `moment`";
-                    self.diagnostics.error(arguments.get("at")?.extent, message);
-                    return None;
+                    return self.refuse(arguments.get("at")?.extent, message);
                 }
                 Some(ExcitationLaw::Load { point: point?, force: load?, moment: moment? })
             }
             (None, Some(_)) => {
                 let (coordinate, quantity) = self.free_coordinate("force", &arguments)?;
-                let (name, other, dimension): (_, _, Expected) = match quantity {
-                    CoordinateQuantity::Angle => ("moment", "force", Expected::moment()),
-                    CoordinateQuantity::Displacement => ("force", "moment", Dimension::FORCE.into()),
-                };
+                let (name, other, dimension): (_, _, Expected) = quantity.either(("moment", "force", Expected::moment()), ("force", "moment", Dimension::FORCE.into()));
                 if let Some(value) = arguments.get(other) {
                     let message = format!("along this coordinate a `{name}` acts, not a `{other}`");
-                    self.diagnostics.error(value.extent, message);
-                    return None;
+                    return self.refuse(value.extent, message);
                 }
                 if arguments.get(name).is_none() {
                     let message = format!("`harmonic` on this coordinate needs a `{name}`");
-                    self.diagnostics.error(&force.law.word, message);
-                    return None;
+                    return self.refuse(&force.law.word, message);
                 }
                 let value = self.amplitude(&arguments, name, dimension)?;
                 Some(ExcitationLaw::Generalized { coordinate, value })
             }
             _ => {
-                self.diagnostics.error_with_help(
+                self.refuse_with_help(
                     &force.law.word,
                     "`harmonic` acts `at` a point or `on` a coordinate",
                     "write `harmonic(at: p, force: [0, 0, 1] N, frequency: 50 Hz)` or `harmonic(on: theta, moment: 1 N*m, frequency: 50 Hz)`",
-                );
-                None
+                )
             }
         };
         Some(Excitation { name: force.name.clone(), law: law?, frequency: frequency?, phase: phase? })
@@ -203,10 +187,7 @@ impl Resolver<'_> {
         let coordinate = self.shaken_coordinate(joint, id, shake)?;
         let declared = self.coordinates.get(coordinate.index())?;
         let (name, quantity) = (declared.name.clone(), declared.quantity?);
-        let length = match quantity {
-            CoordinateQuantity::Angle => 0,
-            CoordinateQuantity::Displacement => 1,
-        };
+        let length = quantity.either(0, 1);
         let expected = |time: i16| match (length, time) {
             (0, 0) => Expected::angle(),
             (length, time) => Dimension::new(length, 0, time).into(),
@@ -248,29 +229,24 @@ impl Resolver<'_> {
             (None, Some(value)) => {
                 let order = self.positive(value, Expected::ratio(), "`order`");
                 let Some(of) = arguments.of else {
-                    self.diagnostics.error_with_help(
+                    return self.refuse_with_help(
                         value.extent,
                         "an order is counted in turns of a drive",
                         "write `order: 2 of spin`, where `spin` is a driven or coasting coordinate",
                     );
-                    return None;
                 };
                 let coordinate = self.running_coordinate(of)?;
                 Some(Frequency::Order(order?, coordinate))
             }
             (Some(_), Some(_)) => {
                 let message = format!("`{word}` takes `frequency` or `order`, not both");
-                self.diagnostics.error(word, message);
-                None
+                self.refuse(word, message)
             }
-            (None, None) => {
-                self.diagnostics.error_with_help(
-                    word,
-                    format!("`{word}` needs `frequency` or `order`"),
-                    "write `frequency: 50 Hz`, or `order: 2 of spin`",
-                );
-                None
-            }
+            (None, None) => self.refuse_with_help(
+                word,
+                format!("`{word}` needs `frequency` or `order`"),
+                "write `frequency: 50 Hz`, or `order: 2 of spin`",
+            ),
         }
     }
 
@@ -280,8 +256,7 @@ impl Resolver<'_> {
         if quantity != CoordinateQuantity::Angle || !self.runs(id)? {
             let message = format!("`{name}` does not turn at a speed of its own");
             let help = "an order is counted in turns of a driven or coasting coordinate";
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
+            return self.refuse_with_help(name, message, help);
         }
         Some(id)
     }
@@ -306,12 +281,7 @@ impl Resolver<'_> {
 
     fn demanded(&mut self, value: &Value, expected: Expected, what: &str, demand: Demand) -> Option<Expr> {
         let expr = self.scalar_of(value, expected, what)?;
-        self.requirements.push(Requirement {
-            what: what.to_string(),
-            values: vec![expr.clone()],
-            demand,
-            extent: value.extent,
-        });
+        self.require(what, [expr.clone()], demand, value.extent);
         Some(expr)
     }
 }

@@ -98,3 +98,9 @@ impl From<Dimension> for Expected {
         Self::named(dimension, &dimension.name(), &dimension.si_symbol())
     }
 }
+
+impl From<Dimension> for Option<Expected> {
+    fn from(dimension: Dimension) -> Self {
+        Some(dimension.into())
+    }
+}

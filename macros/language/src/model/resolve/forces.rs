@@ -18,7 +18,7 @@ use super::resolver::Resolver;
 use super::typed::ValueContext;
 use crate::model::expression::{Expr, Matrix, Vector};
 use crate::model::mechanism::{Force, ForceLaw};
-use crate::syntax::ast::{self, ItemKind};
+use crate::syntax::ast;
 
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
@@ -163,12 +163,9 @@ const SYNONYMS: [(&str, &str); 27] = [
 impl Resolver<'_> {
     pub(super) fn forces(&mut self) -> Vec<Force> {
         let mut forces = Vec::new();
-        for item in &self.ast.items {
-            if let ItemKind::Force(force) = &item.kind
-                && let Some(law) = self.law(force)
-            {
-                forces.push(Force { name: force.name.clone(), law, of_every: false });
-            }
+        for force in self.ast.all::<ast::Force>() {
+            let law = self.law(force);
+            forces.extend(law.map(|law| Force { name: force.name.clone(), law, of_every: false }));
         }
         forces
     }
@@ -187,10 +184,10 @@ impl Resolver<'_> {
         &mut self,
         arguments: &Arguments,
         name: &str,
-        expected: Option<Expected>,
+        expected: impl Into<Option<Expected>>,
     ) -> Option<Expr> {
         let value = arguments.get(name)?;
-        let Some(expected) = expected else {
+        let Some(expected) = expected.into() else {
             self.scalar(value, ValueContext::Parameter);
             return None;
         };
@@ -205,7 +202,7 @@ impl Resolver<'_> {
         &mut self,
         arguments: &Arguments,
         name: &str,
-        expected: Option<Expected>,
+        expected: impl Into<Option<Expected>>,
     ) -> Option<Expr> {
         match arguments.get(name) {
             Some(_) => self.coefficient(arguments, name, expected),

@@ -116,8 +116,7 @@ impl Resolver<'_> {
             } else {
                 advice(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve).map(meant))
             };
-            self.report(function, format!("unknown function `{name}`"), help);
-            return None;
+            return self.refuse_with(function, format!("unknown function `{name}`"), help);
         };
         if arguments.len() != parameters.len() {
             let message = format!("`{name}` takes {}, not {}", count(parameters.len()), arguments.len());
@@ -125,12 +124,10 @@ impl Resolver<'_> {
             if arguments.len() > parameters.len() && decimal_commas(arguments) {
                 help = format!("{help}; {DECIMAL_POINT}");
             }
-            self.diagnostics.error_with_help(function, message, help);
-            return None;
+            return self.refuse_with_help(function, message, help);
         }
         if let Some((message, help)) = refusal(name, needs, value_context) {
-            self.report(function, message, help);
-            return None;
+            return self.refuse_with(function, message, help);
         }
         let result = match needs {
             Arguments => self.of_arguments(name, function, arguments, value_context)?,
@@ -174,8 +171,7 @@ impl Resolver<'_> {
                         of_x.dimension().describe()
                     );
                     let help = self.swallowed(x, of_x.dimension(), of_y.dimension());
-                    self.report(x.extent, message, help);
-                    return None;
+                    return self.refuse_with(x.extent, message, help);
                 };
                 Some(Typed::Scalar(simplify::atan2(above, right), plain()))
             }

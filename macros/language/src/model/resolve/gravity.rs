@@ -5,17 +5,14 @@ use super::typed::{Typed, ValueContext};
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
-use crate::syntax::ast::{Gravity, ItemKind};
+use crate::syntax::ast::{self, Gravity};
 
 impl Resolver<'_> {
     /// The acceleration in the ground frame; zero if none is declared.
     pub(super) fn gravity(&mut self) -> Vector {
         let mut declared: Option<Vector> = None;
         let mut seen = false;
-        for item in &self.ast.items {
-            let ItemKind::Gravity(gravity) = &item.kind else {
-                continue;
-            };
+        for gravity in self.ast.all::<ast::Gravity>() {
             if seen {
                 let message = "gravity is declared twice";
                 self.diagnostics.error(gravity.keyword, message);
@@ -41,25 +38,22 @@ impl Resolver<'_> {
                 vector
             }
             (Typed::Scalar(..), None) => {
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     value.extent,
                     "gravity needs a direction",
                     "write `along -z` after its magnitude",
                 );
-                return None;
             }
             (Typed::Matrix(..), _) => {
                 let message = "a vector is expected here, this is a matrix";
-                self.diagnostics.error(value.extent, message);
-                return None;
+                return self.refuse(value.extent, message);
             }
             (Typed::Vector(..), Some(_)) => {
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     value.extent,
                     "this vector has a direction already",
                     "remove `along`, or give a magnitude instead of the vector",
                 );
-                return None;
             }
         };
         self.require_finite(&vector, what, value.extent);

@@ -91,8 +91,7 @@ impl Resolver<'_> {
     fn distinct(&mut self, joint: &ast::Joint, from: Option<Frame>, to: Option<Frame>) -> Option<()> {
         if from.is_some() && from == to {
             let message = format!("this joint connects `{}` with itself", joint.to);
-            self.diagnostics.error(&joint.to, message);
-            return None;
+            return self.refuse(&joint.to, message);
         }
         Some(())
     }
@@ -189,7 +188,6 @@ impl Resolver<'_> {
             return Some(1);
         }
         let message = format!("`{on}` is not a side of this joint; it connects `{}` and `{}`", joint.from, joint.to);
-        self.diagnostics.error(on, message);
-        None
+        self.refuse(on, message)
     }
 }

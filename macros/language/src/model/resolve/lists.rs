@@ -35,8 +35,7 @@ impl Resolver<'_> {
         let (what, help) = words(value_context);
         let ValueKind::Vector(elements, unit) = &list.bare().kind else {
             let message = format!("the {what} are listed in brackets");
-            self.diagnostics.error_with_help(list.extent, message, help);
-            return None;
+            return self.refuse_with_help(list.extent, message, help);
         };
         let scale = self.optional_unit(unit.as_ref());
         let numbers: Vec<_> = elements.iter().map(|element| self.listed_number(element, value_context)).collect();

@@ -19,8 +19,7 @@ impl Resolver<'_> {
         let unit = self.optional_unit(unit);
         if rows.len() != 3 {
             let message = format!("a matrix has 3 rows, this one has {}", rows.len());
-            self.diagnostics.error_with_help(extent, message, "write `[[a, b, c], [d, e, f], [g, h, i]]`");
-            return None;
+            return self.refuse_with_help(extent, message, "write `[[a, b, c], [d, e, f], [g, h, i]]`");
         }
         let resolved: Vec<_> = rows.iter().map(|row| self.row(row, value_context)).collect();
         let resolved: Vec<_> = resolved.into_iter().collect::<Option<_>>()?;
@@ -36,8 +35,7 @@ impl Resolver<'_> {
             && entries.len() != 3
         {
             let message = format!("a row of a matrix has 3 values, this one has {}", entries.len());
-            self.diagnostics.error(row.extent, message);
-            return None;
+            return self.refuse(row.extent, message);
         }
         self.vector(row, value_context)
     }
@@ -48,12 +46,11 @@ impl Resolver<'_> {
             Typed::Matrix(matrix, quantity) => (matrix, quantity),
             Typed::Vector(diagonal, quantity) => (simplify::diagonal(diagonal), quantity),
             Typed::Scalar(..) => {
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     value.extent,
                     "a vector or a matrix is expected here, this is a number",
                     "a vector `[a, b, c] N/m` holds the values along the axes",
                 );
-                return None;
             }
         };
         self.expect(quantity, expected, what, value)?;

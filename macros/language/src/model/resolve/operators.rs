@@ -42,8 +42,7 @@ impl Resolver<'_> {
                     _ => ["a vector", "a number"],
                 };
                 let message = format!("cannot add or subtract {}", kinds.join(" and "));
-                self.diagnostics.error(binary.sign, message);
-                return None;
+                return self.refuse(binary.sign, message);
             }
         };
         let quantity = self.same_dimension(binary, quantities.0, quantities.1)?;
@@ -84,18 +83,14 @@ impl Resolver<'_> {
                 let quantity = self.combined(binary, of_a, other.quantity())?;
                 Some(other.map(|part| simplify::multiply(a.clone(), part), quantity))
             }
-            (Typed::Vector(..), Typed::Vector(..)) => {
-                self.diagnostics.error_with_help(
-                    binary.sign,
-                    "cannot multiply two vectors with `*`",
-                    "use `dot(a, b)` or `cross(a, b)`",
-                );
-                None
-            }
+            (Typed::Vector(..), Typed::Vector(..)) => self.refuse_with_help(
+                binary.sign,
+                "cannot multiply two vectors with `*`",
+                "use `dot(a, b)` or `cross(a, b)`",
+            ),
             _ => {
                 let message = "a matrix can only be multiplied by a number";
-                self.diagnostics.error(binary.sign, message);
-                None
+                self.refuse(binary.sign, message)
             }
         }
     }
@@ -105,13 +100,11 @@ impl Resolver<'_> {
             Typed::Scalar(divisor, of_divisor) => (divisor, of_divisor),
             other => {
                 let message = format!("cannot divide by {}", other.describe());
-                self.diagnostics.error(binary.sign, message);
-                return None;
+                return self.refuse(binary.sign, message);
             }
         };
         if divisor == Expr::Number(0.0) {
-            self.diagnostics.error(binary.right.extent, "division by zero");
-            return None;
+            return self.refuse(binary.right.extent, "division by zero");
         }
         let quantity = self.combined(binary, left.quantity(), of_divisor)?;
         Some(left.map(|part| simplify::divide(part, divisor.clone()), quantity))
@@ -143,8 +136,7 @@ impl Resolver<'_> {
             }
             (Typed::Scalar(..), other) | (other, _) => {
                 let message = format!("{} cannot stand in a power", other.describe());
-                self.diagnostics.error(binary.sign, message);
-                return None;
+                return self.refuse(binary.sign, message);
             }
         };
         let what = "an exponent";
@@ -158,8 +150,7 @@ impl Resolver<'_> {
             let n = exponent as i32;
             let quantity = self.in_range(dimension.power(n, 1), binary.sign)?;
             if n < 0 && base == Expr::Number(0.0) {
-                self.diagnostics.error(binary.left.extent, "division by zero");
-                return None;
+                return self.refuse(binary.left.extent, "division by zero");
             }
             return Some(Typed::Scalar(simplify::power_integer(base, n), quantity));
         }
@@ -169,16 +160,14 @@ impl Resolver<'_> {
                 let Some((numerator, denominator)) = fraction(exponent) else {
                     let message =
                         format!("{} can only be raised to a whole number or a simple fraction", dimension.describe());
-                    self.diagnostics.error(binary.sign, message);
-                    return None;
+                    return self.refuse(binary.sign, message);
                 };
                 self.in_range(dimension.power(numerator, denominator), binary.sign)?
             }
             (false, _) => {
                 let message = format!("{} can only be raised to a constant power", dimension.describe());
                 let help = "divide it by a reference value first";
-                self.diagnostics.error_with_help(binary.sign, message, help);
-                return None;
+                return self.refuse_with_help(binary.sign, message, help);
             }
         };
         Some(Typed::Scalar(simplify::power(base, exponent), quantity))
@@ -188,8 +177,7 @@ impl Resolver<'_> {
     pub(super) fn finite(&mut self, typed: Typed, at: Extent) -> Option<Typed> {
         let wrong = |expr: &Expr| matches!(expr, Expr::Number(value) if !value.is_finite());
         if typed.numbers().iter().any(wrong) {
-            self.diagnostics.error(at, "the result of this is not a finite real number");
-            return None;
+            return self.refuse(at, "the result of this is not a finite real number");
         }
         Some(typed)
     }

@@ -6,15 +6,12 @@ use super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{CoordinateQuantity, Output, Point, Unit};
-use crate::syntax::ast::ItemKind;
+use crate::syntax::ast::{self, ItemKind};
 
 impl Resolver<'_> {
     pub(super) fn points(&mut self) -> Vec<Point> {
         let mut points = Vec::new();
-        for item in &self.ast.items {
-            let ItemKind::Point(point) = &item.kind else {
-                continue;
-            };
+        for point in self.ast.all::<ast::Point>() {
             let (frame, placement) = self.placed_frame(&point.frame, point.placement.as_ref());
             if let (Some(frame), Some(placement)) = (frame, placement) {
                 points.push(Point { name: point.name.clone(), frame, placement });

@@ -68,10 +68,7 @@ impl Resolver<'_> {
 
     /// Nominal value and tolerance of every design variable; NaN if it is wrong.
     pub(super) fn design_points(&self) -> Vec<DesignPoint> {
-        let named = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Design(design) => Some(design.name.to_string()),
-            _ => None,
-        });
+        let named = self.ast.all::<ast::Design>().map(|design| design.name.to_string());
         let points = self.design.iter().zip(named).map(|(nominal, name)| match nominal {
             Some(nominal) => DesignPoint {
                 name,

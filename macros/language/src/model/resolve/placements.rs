@@ -54,12 +54,11 @@ impl Resolver<'_> {
             .map(|(axis, angle)| {
                 if is_direction(angle) && !is_direction(axis) {
                     let (axis, angle) = (print::value(angle), print::value(axis));
-                    self.diagnostics.error_with_help(
+                    return self.refuse_with_help(
                         placement.keyword,
                         "`rotated` takes the direction first, then the angle",
                         format!("write `rotated({axis}, {angle})`"),
                     );
-                    return None;
                 }
                 let direction = self.direction(axis, ValueContext::Parameter);
                 let turn = self.scalar_of(angle, Expected::angle(), "this");

@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use super::resolver::Resolver;
 use crate::base::ids::PointId;
-use crate::syntax::ast::ItemKind;
+use crate::syntax::ast;
 
 impl Resolver<'_> {
     /// An argument that must be the name of a point.
@@ -14,11 +14,7 @@ impl Resolver<'_> {
 
     /// The frame of a point as written.
     pub(super) fn point_frame(&self, point: PointId) -> Option<String> {
-        let mut points = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Point(point) => Some(point.frame.to_string()),
-            _ => None,
-        });
-        points.nth(point.index())
+        self.ast.all::<ast::Point>().nth(point.index()).map(|point| point.frame.to_string())
     }
 
     /// Whether the point is fixed in a body.
@@ -47,7 +43,6 @@ impl Resolver<'_> {
         } else {
             return Some((from, to));
         };
-        self.diagnostics.error(arguments.get(second)?.extent, message);
-        None
+        self.refuse(arguments.get(second)?.extent, message)
     }
 }

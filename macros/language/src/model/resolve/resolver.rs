@@ -85,6 +85,32 @@ impl<'a> Resolver<'a> {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Records a mistake; what was asked for does not exist.
+    pub(super) fn refuse<T>(&mut self, span: impl Into<Extent>, message: impl Into<String>) -> Option<T> {
+        self.refuse_with(span, message, None)
+    }
+
+    /// [`Self::refuse`] with advice on how to fix the mistake.
+    pub(super) fn refuse_with_help<T>(
+        &mut self,
+        span: impl Into<Extent>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.refuse_with(span, message, Some(help.into()))
+    }
+
+    /// [`Self::refuse`] with advice if there is any.
+    pub(super) fn refuse_with<T>(
+        &mut self,
+        span: impl Into<Extent>,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> Option<T> {
+        self.report(span, message, help);
+        None
+    }
+
     /// Notes a value, in case it is a length.
     pub(super) fn note_length(&mut self, value: f64, dimension: Dimension) {
         let size = value.abs();
@@ -100,15 +126,22 @@ impl<'a> Resolver<'a> {
         if shortest <= longest { shortest.sqrt() * longest.sqrt() } else { 1.0 }
     }
 
+    /// Requires something of values; `what` names them.
+    pub(super) fn require(
+        &mut self,
+        what: impl Into<String>,
+        values: impl Into<Vec<Expr>>,
+        demand: Demand,
+        extent: impl Into<Extent>,
+    ) {
+        let (what, values, extent) = (what.into(), values.into(), extent.into());
+        self.requirements.push(Requirement { what, values, demand, extent });
+    }
+
     /// Requires values to be finite at the nominal design; `what` names them, a vector only once.
     pub(super) fn require_finite(&mut self, values: &[Expr], what: &str, extent: Extent) {
         if !values.iter().all(|value| matches!(value, Expr::Number(_))) {
-            self.requirements.push(Requirement {
-                what: what.to_string(),
-                values: values.to_vec(),
-                demand: Demand::Finite,
-                extent,
-            });
+            self.require(what, values, Demand::Finite, extent);
         }
     }
 

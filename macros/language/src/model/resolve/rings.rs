@@ -7,17 +7,11 @@ use super::typed::ValueContext;
 use crate::base::ids::{CoordinateId, DesignId};
 use crate::base::names::{LINK, joined, written};
 use crate::model::mechanism::{DesignVariable, Ring};
-use crate::syntax::ast::{Cyclic, ItemKind, Unread};
+use crate::syntax::ast::{Cyclic, Unread};
 
 impl Resolver<'_> {
     pub(super) fn rings(&mut self, design: &[DesignVariable]) -> Vec<Ring> {
-        let items = self.ast.items.iter();
-        let declared = items.filter_map(|item| match &item.kind {
-            ItemKind::Cyclic(of) => Some(of),
-            _ => None,
-        });
-        let declared: Vec<&Cyclic> = declared.collect();
-        declared.into_iter().filter_map(|of| self.ring(of, design)).collect()
+        self.ast.all().filter_map(|of| self.ring(of, design)).collect()
     }
 
     fn ring(&mut self, of: &Cyclic, design: &[DesignVariable]) -> Option<Ring> {
@@ -70,8 +64,7 @@ impl Resolver<'_> {
                 let name = written(name);
                 let message =
                     format!("`{lacking}` lacks the `{name}` that `{has}` has, so they are not equal around an axis");
-                self.report(of.name.span(), message, None);
-                return None;
+                return self.refuse_with(of.name.span(), message, None);
             }
         }
         Some(found.into_iter().map(|(name, ids)| (name, ids.into_iter().flatten().collect())).collect())

@@ -4,15 +4,12 @@ use super::coordinates::{DeclaredMotion, dimension, rate_dimension};
 use super::resolver::Resolver;
 use crate::base::ids::CoordinateId;
 use crate::model::mechanism::Steady;
-use crate::syntax::ast::{ItemKind, Named};
+use crate::syntax::ast::Named;
 
 impl Resolver<'_> {
     pub(super) fn steady_values(&mut self) -> Vec<Steady> {
         let mut all: Vec<Steady> = Vec::new();
-        for item in &self.ast.items {
-            let ItemKind::Steady(named) = &item.kind else {
-                continue;
-            };
+        for named in self.ast.all::<Named>() {
             if let Some(steady) = self.steady(named) {
                 if all.iter().any(|x| x.coordinate == steady.coordinate) {
                     let message = format!("`{}` is given a steady value twice", named.name);
@@ -34,13 +31,11 @@ impl Resolver<'_> {
             DeclaredMotion::Driven => {
                 let message = format!("`{name}` is driven: its drive gives its speed");
                 let help = "only a free coordinate, or the speed of a coasting one, can select a steady motion";
-                self.diagnostics.error_with_help(name, message, help);
-                return None;
+                return self.refuse_with_help(name, message, help);
             }
             DeclaredMotion::Shaken => {
                 let message = format!("`{name}` is shaken about zero: it has no other steady value");
-                self.diagnostics.error(name, message);
-                return None;
+                return self.refuse(name, message);
             }
         };
         let value = self.scalar_of(value, dimension, &what)?;

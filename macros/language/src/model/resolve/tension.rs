@@ -46,8 +46,7 @@ impl Resolver<'_> {
             let message =
                 format!("`{name}` is ambiguous here: {}, or {} of that name", word.meaning, meaning.describe());
             let help = format!("give the declared `{name}` another name");
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
+            return self.refuse_with_help(name, message, help);
         }
         Some(Typed::Scalar(word.expr, Quantity::Of(word.dimension)))
     }

@@ -98,23 +98,19 @@ impl Resolver<'_> {
                 let limits = self.deviations(deviations, tolerance.extent, expected)?;
                 if limits.upper < limits.lower {
                     let right = print::deviations(&exchanged(deviations));
-                    self.diagnostics.error_with_help(
+                    return self.refuse_with_help(
                         tolerance.extent,
                         "the upper limit is below the lower one",
                         format!("the upper limit stands first: `{right}`{more_help}"),
                     );
-                    return None;
                 }
                 Some(limits)
             }
-            ast::Limits::Values(_) => {
-                self.diagnostics.error_with_help(
-                    tolerance.extent,
-                    "an input has no value of its own, so it has no list of them",
-                    "give limits about the value that it will have: `+/- 1% uniform`",
-                );
-                None
-            }
+            ast::Limits::Values(_) => self.refuse_with_help(
+                tolerance.extent,
+                "an input has no value of its own, so it has no list of them",
+                "give limits about the value that it will have: `+/- 1% uniform`",
+            ),
         }
     }
 
@@ -124,8 +120,7 @@ impl Resolver<'_> {
         self.expect(quantity, expected, "a value that it may have", &of.values)?;
         if numbers.is_empty() {
             let message = "no value is listed";
-            self.diagnostics.error(of.values.extent, message);
-            return None;
+            return self.refuse(of.values.extent, message);
         }
         let weights = match &of.weights {
             None => vec![1.0; numbers.len()],
@@ -153,8 +148,7 @@ impl Resolver<'_> {
         } else {
             return Some(numbers);
         };
-        self.diagnostics.error(list.extent, message);
-        None
+        self.refuse(list.extent, message)
     }
 
     /// Requires a deviation to have the dimension of its quantity; a bare number may also be meant in percent.
@@ -163,8 +157,7 @@ impl Resolver<'_> {
             Some(written) if !expected.admits(quantity, value) => {
                 let message = expected.needs_unit(&written);
                 let help = format!("or in per cent: `{written}%`");
-                self.diagnostics.error_with_help(value.extent, message, help);
-                None
+                self.refuse_with_help(value.extent, message, help)
             }
             _ => self.expect(quantity, expected.clone(), what, value),
         }
@@ -174,8 +167,7 @@ impl Resolver<'_> {
     fn not_negative(&mut self, half_width: f64, extent: Extent) -> Option<()> {
         if half_width < 0.0 {
             let message = "a tolerance is a half-width and cannot be negative";
-            self.diagnostics.error(extent, message);
-            return None;
+            return self.refuse(extent, message);
         }
         Some(())
     }
@@ -193,12 +185,11 @@ impl Resolver<'_> {
             (DeviationKind::Zero, kind) | (kind, DeviationKind::Zero) => kind == DeviationKind::Fraction,
             (low, high) if low == high => low == DeviationKind::Fraction,
             _ => {
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     extent,
                     "one of these limits is in percent, the other is not",
                     "give both in percent, or both in units",
                 );
-                return None;
             }
         };
         Some(Limits { lower: low, upper: high, relative })
@@ -226,12 +217,11 @@ impl Resolver<'_> {
     /// Limits of a design variable, with percentages taken of its value.
     fn at(&mut self, value: f64, limits: Limits, extent: Extent) -> Option<Limits> {
         if limits.relative && value == 0.0 {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 extent,
                 "a percentage of a nominal value of zero is zero",
                 "give an absolute tolerance, such as `+/- 1 mm`",
             );
-            return None;
         }
         let unit = if limits.relative { value.abs() } else { 1.0 };
         let (lower, upper) = (unit * limits.lower, unit * limits.upper);
@@ -244,8 +234,7 @@ impl Resolver<'_> {
             return Some(());
         }
         let message = "the limits of this tolerance are outside the range of a 64-bit number";
-        self.diagnostics.error(extent, message);
-        None
+        self.refuse(extent, message)
     }
 
     fn distribution(&mut self, law: Option<&ast::Law>) -> Option<Law> {
@@ -269,8 +258,7 @@ impl Resolver<'_> {
         self.expect(quantity, Dimension::NONE, "a shape of `beta`", value)?;
         if shape <= 0.0 {
             let message = format!("a shape of `beta` is positive, this one is {shape}");
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         Some(shape)
     }
@@ -284,8 +272,7 @@ impl Resolver<'_> {
         let extent = declared.law.as_ref().map_or(declared.extent, |law| law.extent);
         let message = format!("a `{law}` value is positive, but its mean, midway between the limits, is {mean} {unit}");
         let help = "choose another law, or declare the amount and write the sign where it is used";
-        self.diagnostics.error_with_help(extent, message, help);
-        None
+        self.refuse_with_help(extent, message, help)
     }
 }
 

@@ -40,19 +40,16 @@ impl Resolver<'_> {
             ValueKind::Parenthesised(inner) => self.value(inner, value_context),
             ValueKind::Sections(_) => {
                 let message = "a cross-section belongs to a beam";
-                self.diagnostics.error(value.extent, message);
-                None
+                self.refuse(value.extent, message)
             }
             ValueKind::File(name) => {
                 let message = format!("`{name}` is a file, where a value is expected");
                 let help = "tables stand at `sections` of a `shaft`, matrices in a `superelement`";
-                self.diagnostics.error_with_help(value.extent, message, help);
-                None
+                self.refuse_with_help(value.extent, message, help)
             }
             ValueKind::Fraction(_) | ValueKind::Station(_) => {
                 let message = "a fraction of a length is a place on a beam, a station one on a shaft";
-                self.diagnostics.error(value.extent, message);
-                None
+                self.refuse(value.extent, message)
             }
         }
     }
@@ -66,8 +63,7 @@ impl Resolver<'_> {
         self.may_be_unclear(Some(number), unit, value_context);
         let value = number * scale;
         if !value.is_finite() {
-            self.diagnostics.error(unit.extent, "this value is outside the range of a 64-bit number");
-            return None;
+            return self.refuse(unit.extent, "this value is outside the range of a 64-bit number");
         }
         // Tolerances are no lengths of the mechanism, and nominal values are noted by those who ask for them.
         if value_context != ValueContext::Nominal {
@@ -94,8 +90,7 @@ impl Resolver<'_> {
             && meaning != Meaning::Unclear
         {
             let message = format!("`{text}` is {}; {what} made of numbers only", meaning.describe());
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
+            return self.refuse_with_help(name, message, help);
         }
         match meaning {
             Meaning::Input(id) => {
@@ -114,30 +109,21 @@ impl Resolver<'_> {
                 self.coordinate_is_usable(name, coordinate, value_context)?;
                 Some(Typed::Scalar(Expr::Coordinate(coordinate), Quantity::Of(coordinates::dimension(quantity))))
             }
-            Meaning::Point(_) if value_context.knows_places() => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{text}` is a point, not a value"),
-                    format!("its position in the ground frame is `position({text})`"),
-                );
-                None
-            }
-            Meaning::Output => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{text}` is an output; a value cannot use outputs"),
-                    "repeat its expression, or name the shared part with `let`",
-                );
-                None
-            }
-            Meaning::Curve(_) => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{text}` is a curve, not a value"),
-                    format!("write `{text}(...)` with what it depends on in the parentheses"),
-                );
-                None
-            }
+            Meaning::Point(_) if value_context.knows_places() => self.refuse_with_help(
+                name,
+                format!("`{text}` is a point, not a value"),
+                format!("its position in the ground frame is `position({text})`"),
+            ),
+            Meaning::Output => self.refuse_with_help(
+                name,
+                format!("`{text}` is an output; a value cannot use outputs"),
+                "repeat its expression, or name the shared part with `let`",
+            ),
+            Meaning::Curve(_) => self.refuse_with_help(
+                name,
+                format!("`{text}` is a curve, not a value"),
+                format!("write `{text}(...)` with what it depends on in the parentheses"),
+            ),
             // Already reported at its declaration.
             Meaning::Unclear => None,
             Meaning::Body(_)
@@ -164,8 +150,7 @@ impl Resolver<'_> {
                     ),
                 };
                 let message = format!("`{text}` is {}, not a value", meaning.describe());
-                self.diagnostics.error_with_help(name, message, help);
-                None
+                self.refuse_with_help(name, message, help)
             }
         }
     }
@@ -185,16 +170,14 @@ impl Resolver<'_> {
         };
         if let Some(reason) = reason {
             let message = format!("`{name}` is a coordinate; {reason}");
-            self.diagnostics.error(name, message);
-            return None;
+            return self.refuse(name, message);
         }
         let motion = self.coordinates.get(coordinate.index())?.motion;
         if motion == DeclaredMotion::Coasting && value_context != ValueContext::Equation {
             let rate = format!("use `rate({name})`");
             let help = (value_context != ValueContext::Energy).then_some(rate);
             let message = format!("`{name}` is coasting: nothing may depend on how far it has gone");
-            self.report(name, message, help);
-            return None;
+            return self.refuse_with(name, message, help);
         }
         Some(())
     }
@@ -251,8 +234,7 @@ impl Resolver<'_> {
             let count = components.len();
             let message = format!("a vector has 3 components, this one has {count}");
             let help = (count > 3 && decimal_commas(components)).then(|| DECIMAL_POINT.to_string());
-            self.report(extent, message, help);
-            return None;
+            return self.refuse_with(extent, message, help);
         }
         let resolved: Vec<(Expr, Quantity)> = resolved.into_iter().collect::<Option<_>>()?;
         let (exprs, quantities): (Vec<Expr>, Vec<Quantity>) = resolved.into_iter().unzip();
@@ -283,8 +265,7 @@ impl Resolver<'_> {
                         common.dimension().describe()
                     );
                     let help = self.swallowed(part, quantity.dimension(), common.dimension());
-                    self.report(part.extent, message, help);
-                    return None;
+                    return self.refuse_with(part.extent, message, help);
                 }
             }
         }
@@ -316,8 +297,7 @@ impl Resolver<'_> {
             "z" => z,
             other => {
                 let message = format!("a vector has no `{other}`; its components are x, y and z");
-                self.diagnostics.error(axis, message);
-                return None;
+                return self.refuse(axis, message);
             }
         };
         Some(Typed::Scalar(component, quantity))
@@ -327,18 +307,14 @@ impl Resolver<'_> {
     pub(super) fn scalar(&mut self, value: &Value, value_context: ValueContext) -> Option<(Expr, Quantity)> {
         match self.value(value, value_context)? {
             Typed::Scalar(expr, quantity) => Some((expr, quantity)),
-            Typed::Vector(..) => {
-                self.diagnostics.error_with_help(
-                    value.extent,
-                    "a number is expected here, this is a vector",
-                    "take a component (`.x`) or the length (`norm`)",
-                );
-                None
-            }
+            Typed::Vector(..) => self.refuse_with_help(
+                value.extent,
+                "a number is expected here, this is a vector",
+                "take a component (`.x`) or the length (`norm`)",
+            ),
             Typed::Matrix(..) => {
                 let message = "a number is expected here, this is a matrix";
-                self.diagnostics.error(value.extent, message);
-                None
+                self.refuse(value.extent, message)
             }
         }
     }
@@ -347,22 +323,16 @@ impl Resolver<'_> {
     pub(super) fn vector(&mut self, value: &Value, value_context: ValueContext) -> Option<(Vector, Quantity)> {
         match self.value(value, value_context)? {
             Typed::Vector(vector, quantity) => Some((vector, quantity)),
-            Typed::Scalar(..) => {
-                self.diagnostics.error_with_help(
-                    value.extent,
-                    "a vector is expected here, this is a number",
-                    "a vector is written `[1 m, 0, 0]`",
-                );
-                None
-            }
-            Typed::Matrix(..) => {
-                self.diagnostics.error_with_help(
-                    value.extent,
-                    "this is a matrix; a vector of three numbers is expected here",
-                    "give the three values along the axes, `[a, b, c]`",
-                );
-                None
-            }
+            Typed::Scalar(..) => self.refuse_with_help(
+                value.extent,
+                "a vector is expected here, this is a number",
+                "a vector is written `[1 m, 0, 0]`",
+            ),
+            Typed::Matrix(..) => self.refuse_with_help(
+                value.extent,
+                "this is a matrix; a vector of three numbers is expected here",
+                "give the three values along the axes, `[a, b, c]`",
+            ),
         }
     }
 
@@ -401,14 +371,12 @@ impl Resolver<'_> {
                 Some(number) => {
                     let message = format!("`{number}` has no unit and counts as radians: more than a turn");
                     let help = format!("write `{number} deg`, or `{number} rad` if that is meant");
-                    self.diagnostics.error_with_help(value.extent, message, help);
-                    None
+                    self.refuse_with_help(value.extent, message, help)
                 }
             };
         }
         if let Some(written) = bare_number(value) {
-            self.diagnostics.error(value.extent, expected.needs_unit(&written));
-            return None;
+            return self.refuse(value.extent, expected.needs_unit(&written));
         }
         let message = format!("{what} must be {}, this is {}", expected.describe(), quantity.dimension().describe());
         let help = self
@@ -427,8 +395,7 @@ impl Resolver<'_> {
                 let weight = "what weighs 1 kgf has a mass of 1 kg, what weighs 1 lbf one of 1 lb";
                 (weighed && expected.dimension == Dimension::MASS).then(|| weight.to_owned())
             });
-        self.report(value.extent, message, help);
-        None
+        self.refuse_with(value.extent, message, help)
     }
 
     /// A number without a unit that is meant as degrees: an angle of more than a turn, written here or where it is declared.

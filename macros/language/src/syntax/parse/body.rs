@@ -3,7 +3,7 @@
 use proc_macro2::Delimiter;
 
 use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term, Unit, UnitFactor, Value, ValueKind};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped};
 use super::names::{colon, declared_name, reference};
 use super::placement::placement;
 use super::value::value;
@@ -57,7 +57,7 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
         arguments.push(argument(&mut content)?);
         if content.peek_decimal_comma() {
             let error = content.expected("a named argument");
-            return error.map_err(|error| Box::new(error.with_help(DECIMAL_POINT)));
+            return error.map_err(helped(DECIMAL_POINT));
         }
         if !content.is_empty() {
             content.expect_sign(',', "`,` or an operator")?;

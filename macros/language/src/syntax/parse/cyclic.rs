@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Ident};
 
 use super::super::ast::{Cyclic, ItemKind, Unit, UnitFactor, Value, ValueKind};
 use super::super::scope::{Scope, Turned};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, mistake};
 use super::repeat::range;
 use super::value::value;
 use super::{Read, parts};
@@ -32,7 +32,7 @@ pub(super) fn cyclic(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<()>
     }
     if members.len() < 2 {
         let message = format!("a ring has two instances or more, and this one has {}", members.len());
-        return Err(Box::new(Diagnostic::new(&name, message)));
+        return mistake(&name, message);
     }
     tokens.expect_word("about").map_err(help)?;
     let about = value(tokens)?;

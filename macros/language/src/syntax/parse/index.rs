@@ -3,7 +3,7 @@
 use proc_macro2::Delimiter;
 
 use super::super::nesting::{self, DEEPEST};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped};
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
@@ -14,7 +14,7 @@ pub(super) fn index(tokens: &mut Tokens) -> Parsed<u32> {
     let index = bound(tokens)?;
     if !tokens.is_empty() {
         let error = tokens.expected("`]` or an operator");
-        return error.map_err(|error| Box::new(error.with_help(INDEX)));
+        return error.map_err(helped(INDEX));
     }
     Ok(index)
 }
@@ -88,7 +88,7 @@ fn factor(tokens: &mut Tokens, depth: u32) -> Parsed<i64> {
     }
     if tokens.peek_ident().is_none() {
         let error = tokens.expected("a whole number");
-        return error.map_err(|error| Box::new(error.with_help(INDEX)));
+        return error.map_err(helped(INDEX));
     }
     let name = tokens.name("a whole number")?.to_string();
     let scope = tokens.scope;

@@ -7,7 +7,7 @@ use super::super::ast::{
     NamedCall, Point, Stated, Unbalance,
 };
 use super::super::print;
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped, mistake_with_help};
 use super::body::{argument, body, named_call};
 use super::joint::joint;
 use super::names::{colon, declared_name, pattern, reference};
@@ -73,7 +73,7 @@ fn has_no_value(tokens: &Tokens, name: &Ident, unit: &str) -> Parsed<()> {
     let help = format!(
         "write `input {name}: {unit};` and give the value to the study with `.input(...)`, or declare a `design` variable"
     );
-    Err(Box::new(Diagnostic::new(tokens.span(), message).with_help(help)))
+    mistake_with_help(tokens.span(), message, help)
 }
 
 fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -114,7 +114,7 @@ fn stated(tokens: &mut Tokens) -> Parsed<Stated> {
 const CURVE: &str = "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`";
 
 fn curve(tokens: &mut Tokens) -> Parsed<ItemKind> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(CURVE));
+    let help = helped(CURVE);
     let name = declared_name(tokens)?;
     colon(tokens).map_err(help)?;
     let arguments = value_before(tokens, |tokens| tokens.peek_arrow())?;
@@ -132,11 +132,11 @@ const GRAVITY: &str = "write `gravity 9.81 m/s^2 along -z;`";
 fn gravity(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let keyword = tokens.expect_word("gravity")?;
     if tokens.peek_sign('=') {
-        return tokens.expected("a value").map_err(|error| Box::new(error.with_help(GRAVITY)));
+        return tokens.expected("a value").map_err(helped(GRAVITY));
     }
     let magnitude = value(tokens)?;
     if tokens.peek_sign(',') {
-        return tokens.expected("`along`").map_err(|error| Box::new(error.with_help(GRAVITY)));
+        return tokens.expected("`along`").map_err(helped(GRAVITY));
     }
     let along = match tokens.word("along") {
         Some(_) => Some(value(tokens)?),
@@ -156,7 +156,7 @@ const EVERY: &str =
     "write `every angle: spring(stiffness: 10 N*m/rad);` or `every displacement: spring(stiffness: 10 N/m);`";
 
 fn every(tokens: &mut Tokens) -> Parsed<ItemKind> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(EVERY));
+    let help = helped(EVERY);
     let quantity = tokens.name("`angle` or `displacement`").map_err(help)?;
     colon(tokens).map_err(help)?;
     let law = named_call(tokens, "a law such as `spring`").map_err(help)?;
@@ -166,7 +166,7 @@ fn every(tokens: &mut Tokens) -> Parsed<ItemKind> {
 const UNBALANCE: &str = "write `unbalance u: on disk, amount: 20 g*mm, angle: 30 deg, at [0, 0, 10] mm;`";
 
 fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(UNBALANCE));
+    let help = helped(UNBALANCE);
     let Some(word) = tokens.ident() else {
         return tokens.expected("`unbalance`");
     };
@@ -190,7 +190,7 @@ fn unbalance(tokens: &mut Tokens) -> Parsed<ItemKind> {
 const MATERIAL: &str = "write `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
 
 fn material(tokens: &mut Tokens) -> Parsed<ItemKind> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(MATERIAL));
+    let help = helped(MATERIAL);
     let Some(word) = tokens.ident() else {
         return tokens.expected("`material`");
     };
@@ -211,7 +211,7 @@ fn material(tokens: &mut Tokens) -> Parsed<ItemKind> {
 const CORRELATED: &str = "write `correlated 0.8: left.k, right.k;` or `correlated 0.8: blade[..].mass;`";
 
 fn correlated(tokens: &mut Tokens) -> Parsed<ItemKind> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(CORRELATED));
+    let help = helped(CORRELATED);
     let keyword = tokens.expect_word("correlated")?;
     let start = tokens.span();
     let sign = if tokens.sign('-').is_some() { -1.0 } else { 1.0 };
@@ -232,7 +232,7 @@ fn correlated(tokens: &mut Tokens) -> Parsed<ItemKind> {
 
 fn kernels_only(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let keyword = tokens.expect_word("kernels")?;
-    let only = tokens.expect_word("only").map_err(|error| Box::new(error.with_help("write `kernels only;`")))?;
+    let only = tokens.expect_word("only").map_err(helped("write `kernels only;`"))?;
     Ok(ItemKind::KernelsOnly(keyword.to(only)))
 }
 

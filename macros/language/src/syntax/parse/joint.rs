@@ -3,7 +3,7 @@
 use proc_macro2::Delimiter;
 
 use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause, Shake};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped};
 use super::body::named_call;
 use super::names::{colon, declared_name, path, peek_labelled, reference};
 use super::placement::{place, placement};
@@ -89,7 +89,7 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
         let ends = tokens.is_empty() || tokens.peek_sign(',') || tokens.peek_sign(';');
         if !(ends || known(tokens) || next.is_some() && known(&ahead)) {
             let error = tokens.expected("`,` or `;`");
-            return error.map_err(|error| Box::new(error.with_help(COASTS)));
+            return error.map_err(helped(COASTS));
         }
         let coast = Coast { coordinate, keyword };
         return Ok(Some(JointClause::Coast(coast)));
@@ -106,7 +106,7 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
     };
     if !tokens.peek_word("at") {
         let error = tokens.expected("`at`");
-        return error.map_err(|error| Box::new(error.with_help("write `driven at omega`")));
+        return error.map_err(helped("write `driven at omega`"));
     }
     tokens.expect_word("at")?;
     let speed = value(tokens)?;

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, Ident};
 use syn::ext::IdentExt as _;
 
 use super::super::scope::{Meaning, Port};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, mistake, mistake_with_help};
 use super::index::{bound, index};
 use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
@@ -17,12 +17,12 @@ pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
         && KEYWORDS.iter().any(|word| keyword == word)
     {
         let message = format!("`{keyword}` cannot be a name: it starts an item");
-        return Err(Box::new(Diagnostic::new(&keyword, message)));
+        return mistake(&keyword, message);
     }
     let name = tokens.name("a name")?;
     if name.to_string().contains(LINK) {
         let message = format!("a name cannot contain U+{:04X}", u32::from(LINK));
-        return Err(Box::new(Diagnostic::new(&name, message)));
+        return mistake(&name, message);
     }
     let mut ahead = *tokens;
     if ahead.sign('-').is_some()
@@ -88,7 +88,7 @@ fn meant(tokens: &mut Tokens, what: &str, of_port: fn(&Port) -> &Ident) -> Parse
             let message = format!("a part sees only its own names, and `{text}` is declared outside it");
             let help =
                 format!("make it a parameter or a port of the part, and write `{text}: {text}` where it is used");
-            return Err(Box::new(Diagnostic::new(&first, message).with_help(help)));
+            return mistake_with_help(&first, message, help);
         }
         text => text,
     };

@@ -8,7 +8,7 @@ use proc_macro2::{Delimiter, Ident};
 use super::super::ast::{Body, ItemKind, Joint, JointClause, NamedCall, Placement, Point, Stated, Term, Use, Value};
 use super::super::print;
 use super::super::scope::{Meaning, Names, Part, Parts, Port, Scope, Turned};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped, mistake, mistake_with_help};
 use super::index::whole;
 use super::names::{colon, declared_name, path, reference};
 use super::placement::placement;
@@ -69,14 +69,14 @@ pub(super) fn port(tokens: &mut Tokens<'_>) -> Parsed<bool> {
     let is_part = !tokens.scope.part.is_empty();
     if let Some(keyword) = keyword.filter(|keyword| is_part && WHOLE.iter().any(|word| keyword == word)) {
         let message = format!("`{keyword}` is for the whole mechanism, and cannot stand in a part");
-        return Err(Box::new(Diagnostic::new(&keyword, message)));
+        return mistake(&keyword, message);
     }
     if !tokens.peek_word("port") || ahead.ident().is_none() || ahead.peek_sign(':') {
         return Ok(false);
     }
     if !is_part {
         let message = "only a part has ports";
-        return Err(Box::new(Diagnostic::new(tokens.span(), message).with_help(PART)));
+        return mistake_with_help(tokens.span(), message, PART);
     }
     if ahead.sign(';').is_none() {
         return ahead.expected("`;`");
@@ -148,7 +148,7 @@ pub(super) fn find<'a>(tokens: Tokens<'a>, parts: &mut Parts<'a>, diagnostics: &
 }
 
 fn part<'a>(tokens: &mut Tokens<'a>) -> Parsed<Part<'a>> {
-    let help = |error: Box<Diagnostic>| Box::new(error.with_help(PART));
+    let help = helped(PART);
     let name = tokens.name("the part's name").map_err(help)?;
     let mut parameters = Vec::new();
     if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
@@ -211,7 +211,7 @@ pub(super) fn use_part(tokens: &mut Tokens<'_>, read: &mut Read<'_>) -> Parsed<(
         let Some(Given { name: given, value, number }) = arguments.iter().find(|given| given.name == *name) else {
             let message = format!("`{instance}` lacks its `{name}`");
             let help = format!("`{word}` has the parameter `{name}: {}`", print::unit(unit));
-            return Err(Box::new(Diagnostic::new(&instance, message).with_help(help)));
+            return mistake_with_help(&instance, message, help);
         };
         let name = Ident::new(&scope.whole(&name.to_string()), given.span());
         scope.numbers.extend(number.map(|number| (name.to_string(), number)));
@@ -242,7 +242,7 @@ fn member(turned: &Turned, name: &Ident) -> Parsed<Ident> {
     }
     let message = format!("`{}` is not the name of the ring", written(&name.to_string()));
     let help = format!("write `use {}: ...`", written(&turned.ring));
-    Err(Box::new(Diagnostic::new(name, message).with_help(help)))
+    mistake_with_help(name, message, help)
 }
 
 /// The part of a name, which must not be one that is being read.
@@ -263,11 +263,11 @@ fn known_part<'a>(around: &'a Scope<'a>, word: &Ident) -> Parsed<(&'a str, &'a P
         circle.reverse();
         circle.push(name);
         let message = format!("a part cannot contain itself: `{}`", circle.join("` uses `"));
-        return Err(Box::new(Diagnostic::new(word, message)));
+        return mistake(word, message);
     }
     if circle.len() == DEEPEST {
         let message = format!("parts stand in parts more than {DEEPEST} deep here");
-        return Err(Box::new(Diagnostic::new(word, message)));
+        return mistake(word, message);
     }
     Ok((name, part))
 }
@@ -299,10 +299,10 @@ fn arguments(tokens: &mut Tokens<'_>, part: &Part<'_>) -> Parsed<Vec<Given>> {
                 [] => "it has none at all".to_owned(),
                 known => format!("it has {}", listed(known)),
             };
-            return Err(Box::new(Diagnostic::new(&name, message).with_help(help)));
+            return mistake_with_help(&name, message, help);
         }
         if arguments.iter().any(|other| other.name == name) {
-            return Err(Box::new(Diagnostic::new(&name, format!("`{name}` is given twice"))));
+            return mistake(&name, format!("`{name}` is given twice"));
         }
         let ends = |tokens: &Tokens<'_>| tokens.is_empty() || tokens.peek_sign(',');
         let mut ahead = content;
@@ -336,7 +336,7 @@ fn ports(tokens: &mut Tokens<'_>, part: &Part<'_>, instance: &Ident, scope: &mut
                 let twice = if seen.contains(&name) { "is placed twice" } else { "is no port" };
                 let all: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
                 let message = format!("`{name}` {twice}; the ports of `{}` are {}", part.name, listed(&all));
-                return Err(Box::new(Diagnostic::new(&port, message)));
+                return mistake(&port, message);
             }
             let passed_on =
                 tokens.peek_ident().and_then(|given| tokens.scope.ports.iter().find(|port| given == port.name));
@@ -384,7 +384,7 @@ fn ports(tokens: &mut Tokens<'_>, part: &Part<'_>, instance: &Ident, scope: &mut
         None => Ok(Ports { points, bodies }),
         Some(port) => {
             let message = format!("`{instance}` lacks a place for its port `{port}`");
-            Err(Box::new(Diagnostic::new(instance, message).with_help(format!("write `with {port}: FRAME`"))))
+            mistake_with_help(instance, message, format!("write `with {port}: FRAME`"))
         }
     }
 }

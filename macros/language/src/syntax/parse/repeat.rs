@@ -6,9 +6,8 @@ use proc_macro2::Delimiter;
 
 use super::super::ast::Value;
 use super::super::scope::Scope;
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, mistake, mistake_with_help};
 use super::index::bound;
-use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
 /// Most elements of an array and most rounds of a loop.
@@ -27,9 +26,9 @@ pub(super) fn range(tokens: &mut Tokens) -> Parsed<Range<u32>> {
         Some(0..=LONGEST) => Ok(first..end),
         Some(length) => {
             let message = format!("this range has {length} numbers; {LONGEST} are the most");
-            Err(Box::new(Diagnostic::new(extent, message)))
+            mistake(extent, message)
         }
-        None => Err(Box::new(Diagnostic::new(extent, "this range ends before it starts"))),
+        None => mistake(extent, "this range ends before it starts"),
     }
 }
 
@@ -64,7 +63,7 @@ pub(super) fn rounds<'a>(tokens: &mut Tokens<'a>) -> Parsed<Vec<Scope<'a>>> {
     let name = counter.to_string();
     if tokens.scope.find(&name).is_some() || tokens.scope.counter(&name).is_some() {
         let message = format!("`{name}` is declared already");
-        return Err(Box::new(Diagnostic::new(&counter, message).with_help("give the counter a name of its own")));
+        return mistake_with_help(&counter, message, "give the counter a name of its own");
     }
     tokens.expect_word("in")?;
     let range = range(tokens)?;

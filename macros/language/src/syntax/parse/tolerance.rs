@@ -6,7 +6,7 @@ use super::super::ast::{
     Deviation, Deviations, Law, LawKind, Limits, Measure, Tolerance, Unit, Value, ValueKind, Values,
 };
 use super::super::print;
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped, mistake_with_help};
 use super::value::{digits_and_suffix, list, number, value, value_before};
 use super::words::{KEYWORDS, LAWS, suggested_law};
 use crate::base::diagnostics::Diagnostic;
@@ -55,7 +55,7 @@ pub(super) fn tolerance(tokens: &mut Tokens) -> Parsed<Option<Tolerance>> {
         if let Some(word) = tokens.peek_ident().filter(|word| LAWS.contains(&word.to_string().as_str())) {
             let message = "the list says how they are distributed";
             let help = format!("leave `{word}` away, or give limits in place of the list");
-            return Err(Box::new(Diagnostic::new(&word, message).with_help(help)));
+            return mistake_with_help(&word, message, help);
         }
         return Ok(Some(Tolerance { limits, extent, law: None }));
     }
@@ -111,7 +111,7 @@ fn values(tokens: &mut Tokens) -> Parsed<Values> {
         let weights = weights(tokens)?;
         Ok(Values { values, weights })
     });
-    read.map_err(|error| Box::new(error.with_help(VALUES)))
+    read.map_err(helped(VALUES))
 }
 
 /// Reads a number and `%`. The number may be negative here, so that a later rule can explain the mistake.
@@ -209,7 +209,7 @@ fn law(tokens: &mut Tokens) -> Parsed<Option<Law>> {
         let message = "this law has no parameters";
         let help = "the limits say how wide it is";
         let extent = extent.to(tokens.last);
-        return Err(Box::new(Diagnostic::new(extent, message).with_help(help)));
+        return mistake_with_help(extent, message, help);
     }
     Ok(Some(Law { kind, extent }))
 }
@@ -217,25 +217,23 @@ fn law(tokens: &mut Tokens) -> Parsed<Option<Law>> {
 fn truncated(tokens: &mut Tokens) -> Parsed<LawKind> {
     match tokens.word("normal") {
         Some(_) => Ok(LawKind::TruncatedNormal),
-        None => tokens
-            .expected("`normal`")
-            .map_err(|error| Box::new(error.with_help("only a normal law is truncated: `truncated normal`"))),
+        None => tokens.expected("`normal`").map_err(helped("only a normal law is truncated: `truncated normal`")),
     }
 }
 
 fn beta(word: &Ident, tokens: &mut Tokens) -> Parsed<LawKind> {
     const SHAPES: &str = "both shapes are given: `beta(2, 3)`";
     let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
-        return Err(Box::new(Diagnostic::new(word, "`beta` has two shapes, none is given").with_help(SHAPES)));
+        return mistake_with_help(word, "`beta` has two shapes, none is given", SHAPES);
     };
-    let shapes = list(&mut content, 0).map_err(|error| Box::new(error.with_help(SHAPES)))?;
+    let shapes = list(&mut content, 0).map_err(helped(SHAPES))?;
     let count = shapes.len();
     match <[Value; 2]>::try_from(shapes) {
         Ok(shapes) => Ok(LawKind::Beta(Box::new(shapes))),
         Err(_) => {
             let message = format!("`beta` has two shapes, not {count}");
             let extent = Extent::from(word).to(tokens.last);
-            Err(Box::new(Diagnostic::new(extent, message).with_help(SHAPES)))
+            mistake_with_help(extent, message, SHAPES)
         }
     }
 }

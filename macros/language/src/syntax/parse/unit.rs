@@ -5,7 +5,7 @@ use proc_macro2::{Delimiter, Ident, Span};
 
 use super::super::ast::{Unit, UnitFactor};
 use super::super::print;
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, mistake};
 use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
@@ -175,7 +175,7 @@ fn exponent(tokens: &mut Tokens) -> Parsed<i32> {
     let whole = literal.to_string().parse::<i32>().unwrap_or(0);
     if !(1..=100).contains(&whole) {
         let message = "a unit's exponent must be a whole number from 1 to 100 or from -1 to -100";
-        return Err(Box::new(Diagnostic::new(literal.span(), message)));
+        return mistake(literal.span(), message);
     }
     *tokens = ahead;
     Ok(sign * whole)

@@ -5,7 +5,7 @@ use syn::ext::IdentExt as _;
 
 use super::super::ast::{Binary, Operator, Value, ValueKind};
 use super::super::nesting::{self, DEEPEST};
-use super::super::tokens::{Parsed, Tokens};
+use super::super::tokens::{Parsed, Tokens, helped, mistake};
 use super::names::name_of_value;
 use super::repeat::terms;
 use super::unit::{self, missing_sign};
@@ -109,7 +109,7 @@ fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
         let Some(axis) = tokens.ident() else {
             let error = tokens.expected("a component: `x`, `y` or `z`");
             return match tokens.literal() {
-                Some(_) => error.map_err(|error| Box::new(error.with_help(GRADE))),
+                Some(_) => error.map_err(helped(GRADE)),
                 None => error,
             };
         };
@@ -157,11 +157,7 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
             return digits_missing(point);
         }
         let error = tokens.expected("a value");
-        return if tokens.peek_sign('*') {
-            error.map_err(|error| Box::new(error.with_help("a power is written `x^2`")))
-        } else {
-            error
-        };
+        return if tokens.peek_sign('*') { error.map_err(helped("a power is written `x^2`")) } else { error };
     }
     if let Some(axis) = hidden_axis(tokens) {
         let components =
@@ -211,7 +207,7 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     let length = literal.to_string().len();
     if length > LONGEST {
         let message = format!("this number has {length} characters; {LONGEST} are the most");
-        return Err(Box::new(Diagnostic::new(span, message)));
+        return mistake(span, message);
     }
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");
@@ -224,7 +220,7 @@ pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
         digits.split(['e', 'E']).next().is_some_and(|mantissa| mantissa.contains(|digit| ('1'..='9').contains(&digit)));
     if value.is_infinite() || (value == 0.0 && has_digit) {
         let message = format!("`{literal}` is outside the range of a 64-bit number");
-        return Err(Box::new(Diagnostic::new(span, message)));
+        return mistake(span, message);
     }
     let unit = unit::after_number(tokens, &suffix)?;
     let extent = Extent::from(span).to(tokens.last);

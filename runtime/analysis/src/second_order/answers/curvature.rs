@@ -1,10 +1,9 @@
 use eigentol_results::numbers::converted;
-use eigentol_results::title::title;
 use eigentol_results::{Answer, Columns, Findings, Subject};
 
 use crate::second_order::{EventCurvature, ModeCurvature, OutputCurvature, SecondDerivatives};
 use crate::variables::{Variable, design_variables, entry, variables};
-use crate::{Description, Unit};
+use crate::{Description, Shared, Unit};
 
 /// `second derivatives`: a row for each pair of variables, derivatives of `lambda` and of the eigenvalue `s` per `unit`
 /// of the first and `unit 2` of the second.
@@ -112,7 +111,7 @@ pub(crate) fn names<'a, R>(table: &mut Columns<'_, R>, of: &dyn Fn(&R) -> &Pair<
 
 /// The second derivatives of a quantity with this name and unit.
 fn derivatives(
-    d: &Description,
+    d: &Shared<Description>,
     pairs: &[Pair<'_>],
     quantity: Option<(&str, &Unit)>,
     of: &dyn Fn(&Pair<'_>) -> Option<f64>,
@@ -126,8 +125,8 @@ fn derivatives(
     data(d, quantity.map_or("?", |(name, _)| name), table)
 }
 
-fn data(d: &Description, of: &str, table: Columns<'_, Pair<'_>>) -> Findings {
-    let mut said = Findings::titled(format!("{}: second derivatives of {of}", title(d, &[])));
+fn data(d: &Shared<Description>, of: &str, table: Columns<'_, Pair<'_>>) -> Findings {
+    let mut said = Subject::at(d, &[]).titled(format_args!("second derivatives of {of}"));
     said.columns(table);
     said
 }

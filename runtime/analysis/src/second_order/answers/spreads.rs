@@ -1,7 +1,6 @@
 use eigentol_results::numbers::{converted, number, or_dash, rough};
 use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use crate::second_order::{ModeSecondOrder, ModelMoments, SecondOrder, SecondOrderSpread};
 use crate::tolerance::Doubt;
@@ -12,13 +11,10 @@ use crate::{Description, Error};
 impl Answer for SecondOrder {
     const KIND: &'static str = "second-order tolerances";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: spread of the frequencies to second order"));
+        let mut said = self.titled("spread of the frequencies to second order");
         let rows = self.rows();
         spreads(&mut said, &self.description, &rows);
         if !self.varies {

@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::real::real;
+use super::real::{memory, real};
 use crate::scalar::batch::{Batch, WIDTH};
 use crate::scalar::lanes::{BELOW_ONE, INTEGER, LEAST, Lanes, MANTISSA, ONE, SHIFT};
 use crate::scalar::real::Real;
@@ -35,25 +35,9 @@ unsafe fn flip(value: __m512d, by: __m512i) -> __m512d {
 }
 
 impl Lanes for Eight {
-    const WIDTH: usize = 8;
+    memory!(8, _mm512_loadu_pd, _mm512_storeu_pd);
     type Mask = __mmask8;
 
-    #[inline(always)]
-    fn load(from: &Batch, at: usize) -> Self {
-        assert!(at + 8 <= WIDTH);
-        // SAFETY: see the module; within the batch by the assertion.
-        Self(unsafe { _mm512_loadu_pd(from.0.as_ptr().add(at)) })
-    }
-    #[inline(always)]
-    fn store(self, to: &mut Batch, at: usize) {
-        assert!(at + 8 <= WIDTH);
-        // SAFETY: see the module; within the batch by the assertion.
-        unsafe { _mm512_storeu_pd(to.0.as_mut_ptr().add(at), self.0) };
-    }
-    #[inline(always)]
-    fn each(self, function: impl Fn(f64) -> f64) -> Self {
-        Self::of(self.array().map(function))
-    }
     #[inline(always)]
     fn abs(self) -> Self {
         // SAFETY: see the module.

@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::real::real;
+use super::real::{memory, real};
 use crate::scalar::batch::{Batch, WIDTH};
 use crate::scalar::lanes::{BELOW_ONE, INTEGER, LEAST, Lanes, MANTISSA, ONE, SHIFT};
 use crate::scalar::real::Real;
@@ -28,25 +28,9 @@ impl Neg for Four {
 }
 
 impl Lanes for Four {
-    const WIDTH: usize = 4;
+    memory!(4, _mm256_loadu_pd, _mm256_storeu_pd);
     type Mask = __m256d;
 
-    #[inline(always)]
-    fn load(from: &Batch, at: usize) -> Self {
-        assert!(at + 4 <= WIDTH);
-        // SAFETY: see the module; within the batch by the assertion.
-        Self(unsafe { _mm256_loadu_pd(from.0.as_ptr().add(at)) })
-    }
-    #[inline(always)]
-    fn store(self, to: &mut Batch, at: usize) {
-        assert!(at + 4 <= WIDTH);
-        // SAFETY: see the module; within the batch by the assertion.
-        unsafe { _mm256_storeu_pd(to.0.as_mut_ptr().add(at), self.0) };
-    }
-    #[inline(always)]
-    fn each(self, function: impl Fn(f64) -> f64) -> Self {
-        Self::of(self.array().map(function))
-    }
     #[inline(always)]
     fn abs(self) -> Self {
         // SAFETY: see the module.

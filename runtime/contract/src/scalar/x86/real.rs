@@ -102,4 +102,28 @@ macro_rules! real {
     };
 }
 
-pub(super) use real;
+/// Inside of an implementation of [`Lanes`](crate::scalar::lanes::Lanes): the number of lanes, and what goes by memory.
+macro_rules! memory {
+    ($lanes:literal, $load:ident, $store:ident) => {
+        const WIDTH: usize = $lanes;
+
+        #[inline(always)]
+        fn load(from: &Batch, at: usize) -> Self {
+            assert!(at + $lanes <= WIDTH);
+            // SAFETY: see the module; within the batch by the assertion.
+            Self(unsafe { $load(from.0.as_ptr().add(at)) })
+        }
+        #[inline(always)]
+        fn store(self, to: &mut Batch, at: usize) {
+            assert!(at + $lanes <= WIDTH);
+            // SAFETY: see the module; within the batch by the assertion.
+            unsafe { $store(to.0.as_mut_ptr().add(at), self.0) };
+        }
+        #[inline(always)]
+        fn each(self, function: impl Fn(f64) -> f64) -> Self {
+            Self::of(self.array().map(function))
+        }
+    };
+}
+
+pub(super) use {memory, real};

@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::real::real;
+use super::real::{memory, real};
 use crate::scalar::batch::{Batch, WIDTH};
 use crate::scalar::lanes::{BELOW_ONE, Lanes, ONE};
 use crate::scalar::real::Real;
@@ -50,21 +50,9 @@ impl Neg for Two {
 }
 
 impl Lanes for Two {
-    const WIDTH: usize = 2;
+    memory!(2, _mm_loadu_pd, _mm_storeu_pd);
     type Mask = __m128d;
 
-    #[inline(always)]
-    fn load(from: &Batch, at: usize) -> Self {
-        Self::of([from.0[at], from.0[at + 1]])
-    }
-    #[inline(always)]
-    fn store(self, to: &mut Batch, at: usize) {
-        [to.0[at], to.0[at + 1]] = self.array();
-    }
-    #[inline(always)]
-    fn each(self, function: impl Fn(f64) -> f64) -> Self {
-        Self::of(self.array().map(function))
-    }
     #[inline(always)]
     fn abs(self) -> Self {
         // SAFETY: see the module.

@@ -4,6 +4,7 @@ mod large;
 mod refine;
 mod residual;
 
+use super::dense::transpose;
 use super::tridiagonal;
 use crate::algebra::{Matrix, Vector, for_size, largest};
 use residual::Matrices;
@@ -169,14 +170,6 @@ fn solve_lower(n: usize, lower: &[f64], x: &mut [f64]) {
             }
         }
         row.iter_mut().for_each(|x| *x /= lower[i * (n + 1)]);
-    }
-}
-
-fn transpose(n: usize, matrix: &mut [f64]) {
-    for i in 0..n {
-        for j in 0..i {
-            matrix.swap(i * n + j, j * n + i);
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "index loops read as the formulas they are")]
 
 use super::residual::Matrices;
-use crate::algebra::{Lu, Matrix, largest};
+use crate::algebra::{Lu, Matrix, dot, largest};
 
 const STEPS: usize = 4;
 /// Eigenvalues closer than this, relative to the larger, may mix in an inverse iteration.
@@ -61,10 +61,6 @@ pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64]
             shapes[range.clone()].copy_from_slice(shape);
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn multiply(matrix: &[f64], x: &[f64], into: &mut [f64]) {

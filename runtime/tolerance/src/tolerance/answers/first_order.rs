@@ -1,8 +1,7 @@
 use eigentol_results::numbers::{CLUSTER, converted, heading, number, of_mode, or_dash, rough, short};
 use eigentol_results::relevance::{NOTHING_VARIES, unless_rounding};
 use eigentol_results::shares::Shares;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::doubts::{doubted, joined};
 use crate::modes::{Family, undamped};
@@ -34,13 +33,10 @@ pub fn unmoved(mode: &ModeTolerance) -> bool {
 impl Answer for FirstOrder {
     const KIND: &'static str = "first-order tolerances";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: first-order spread of the frequencies"));
+        let mut said = self.titled("first-order spread of the frequencies");
         let doubts: Vec<Vec<Doubt>> = (0..self.modes.len()).map(|mode| self.doubts(mode)).collect();
         let moved = self.varies && !self.modes.iter().all(unmoved);
         self.spreads(&mut said, &doubts, moved);

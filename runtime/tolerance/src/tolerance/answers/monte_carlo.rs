@@ -1,7 +1,6 @@
 use eigentol_results::numbers::{converted, given, number, or_dash, rough, short};
 use eigentol_results::relevance::{NOTHING_VARIES, names, unless_rounding};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Grid, Subject, Table, displayed};
+use eigentol_results::{Answer, Columns, Findings, Grid, Table, at_point, displayed};
 use eigentol_statistics::reliability::sampling::wilson;
 
 use super::samples::{origin, samples_columns};
@@ -14,17 +13,11 @@ use crate::tolerance::{MonteCarlo, Sample, Statistics};
 impl Answer for MonteCarlo {
     const KIND: &'static str = "Monte Carlo";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let mut said = Findings::titled(format!(
-            "{}: Monte Carlo with re-solved equilibria, {}: {}",
-            title(&self.description, &self.inputs),
-            self.drawn(),
-            self.counts
-        ));
+        let mut said =
+            self.titled(format_args!("Monte Carlo with re-solved equilibria, {}: {}", self.drawn(), self.counts));
         self.modes_table(&mut said);
         self.outcomes_table(&mut said);
         if !self.varies {

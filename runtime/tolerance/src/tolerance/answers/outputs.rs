@@ -1,8 +1,7 @@
 use eigentol_results::numbers::{converted, heading, optional, or_dash, rough};
 use eigentol_results::relevance::NOTHING_VARIES;
 use eigentol_results::shares::Shares;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::first_order::spread_of;
 use crate::mechanism::OutputInfo;
@@ -40,14 +39,11 @@ fn shares_of<'a>(row: &'a Row<'_>) -> Option<&'a [f64]> {
 impl Answer for OutputTolerances {
     const KIND: &'static str = "output tolerances";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: first-order spread of the outputs"));
+        let mut said = self.titled("first-order spread of the outputs");
         let values = self.values.iter().zip(&self.spreads);
         let rows = d.outputs.iter().zip(values);
         let rows = rows.map(|(info, (&nominal, spread))| Row { info, nominal, spread: spread.as_ref() });

@@ -1,7 +1,6 @@
 use eigentol_results::numbers::{number, short};
 use eigentol_results::relevance::{BELOW, names, relevant};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::{Row, names_and_units};
 use crate::Description;
@@ -11,14 +10,11 @@ use crate::propagation::{Estimate, Influence, VariableInfluence};
 impl Answer for Influence {
     const KIND: &'static str = "influence";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let title = title(d, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: where the scatter of responses comes from"));
+        let mut said = self.titled("where the scatter of responses comes from");
         let (total, counts) = (self.counts.total(), &self.counts);
         said.note(format!("{total} designs: {counts}."));
         let mut all = Vec::new();

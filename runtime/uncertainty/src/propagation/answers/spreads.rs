@@ -1,7 +1,6 @@
 use eigentol_results::numbers::{optional, or_dash, percent, short};
 use eigentol_results::relevance::unless_rounding;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::{Row, errors, estimates, responses};
 use crate::judge::Doubt;
@@ -13,14 +12,11 @@ use crate::tolerance::{joined, outcomes, standing};
 impl Answer for Propagation {
     const KIND: &'static str = "spreads";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
         let method = &self.method;
-        let mut said = Findings::titled(format!("{title}: spread of responses by {method}"));
+        let mut said = self.titled(format_args!("spread of responses by {method}"));
         if !self.reason.is_empty() {
             said.note(format!("Why: {}.", self.reason));
         }

@@ -1,6 +1,5 @@
 use eigentol_results::numbers::number;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::{Row, names_and_units, responses};
 use crate::Description;
@@ -11,17 +10,11 @@ use crate::propagation::{Extreme, ResponseLimits, WorstCase};
 impl Answer for WorstCase {
     const KIND: &'static str = "worst case";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let mut said = Findings::titled(format!(
-            "{}: worst case over the box of limits, {} designs",
-            title(d, &self.inputs),
-            self.evaluations
-        ));
+        let mut said = self.titled(format_args!("worst case over the box of limits, {} designs", self.evaluations));
         let rows = Row::each(&self.wanted, d, &self.responses);
         extremes(&mut said, &rows, d);
         self.designs(&mut said);

@@ -1,7 +1,6 @@
 use eigentol_results::numbers::{counted, rough, short};
 use eigentol_results::relevance::NOTHING_VARIES;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use crate::requirement::{Chances, Interval, Tally};
 use crate::tolerance::outcomes;
@@ -13,15 +12,12 @@ const CONFIDENCE: f64 = 0.95;
 impl Answer for Chances {
     const KIND: &'static str = "chances";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let samples = self.all.samples();
-        let subject = title(&self.description, &self.inputs);
         let drawn = counted(samples, "sample");
-        let mut said = Findings::titled(format!("{subject}: requirements, {drawn}"));
+        let mut said = self.titled(format_args!("requirements, {drawn}"));
         if samples < self.planned {
             let planned = self.planned;
             said.note(format!("Not complete: {planned} samples were asked for."));

@@ -1,7 +1,6 @@
 use eigentol_results::numbers::rough;
 use eigentol_results::relevance::CHANCE;
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::reliability::variables;
 use super::words::probability;
@@ -12,13 +11,10 @@ use crate::requirement::{FailureProbability, Interval, Probabilities, Reliabilit
 impl Answer for Probabilities {
     const KIND: &'static str = "probabilities of failure";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
-        let title = title(&self.description, &self.inputs);
-        let mut said = Findings::titled(format!("{title}: probability of failure"));
+        let mut said = self.titled("probability of failure");
         self.found(&mut said);
         let details = self.reliability.iter().map(Answer::findings);
         let details = details.chain(self.chances.iter().map(Answer::findings));

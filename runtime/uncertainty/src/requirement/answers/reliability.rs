@@ -1,8 +1,7 @@
 use eigentol_contract::DesignInfo;
 use eigentol_results::numbers::{converted, heading, number, rough};
 use eigentol_results::relevance::{BELOW, names, relevant};
-use eigentol_results::title::title;
-use eigentol_results::{Answer, Columns, Findings, Subject, displayed};
+use eigentol_results::{Answer, Columns, Findings, at_point, displayed};
 
 use super::words::probability;
 use crate::Description;
@@ -14,13 +13,11 @@ use crate::requirement::{DesignPoint, LimitReliability, Reliability};
 impl Answer for Reliability {
     const KIND: &'static str = "reliability";
 
-    fn subject(&self) -> Option<Subject<'_>> {
-        Some(Subject::at(&self.description, &self.inputs))
-    }
+    at_point!();
 
     fn findings(&self) -> Findings {
         let d = &self.description;
-        let mut said = Findings::titled(format!("{}: reliability", title(d, &self.inputs)));
+        let mut said = self.titled("reliability");
         self.data(&mut said);
         for limit_state in &self.limits {
             limit(&mut said, limit_state, d);

@@ -4,7 +4,6 @@ use crate::algebra::{Graph, evaluate};
 use crate::base::ids::CoordinateId;
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, RandomState};
-use crate::model::mechanism::CoordinateQuantity;
 
 /// Powers of two, in which nothing is rounded: the typical length, the largest elastic energy of such motions, and by
 /// unknown a motion or a share of the reaction that does this work.
@@ -19,10 +18,7 @@ impl Units {
         let mut units = Self { length: power_of_two(context.mechanism.length), energy: 1.0, unknowns: Vec::new() };
         let topology = context.topology;
         let moving = topology.free.iter().chain(&topology.coasting);
-        let motion = |id: &CoordinateId| match context.mechanism.coordinates[id.index()].quantity {
-            CoordinateQuantity::Angle => 1.0,
-            CoordinateQuantity::Displacement => units.length,
-        };
+        let motion = |id: &CoordinateId| context.mechanism.coordinates[id.index()].quantity.either(1.0, units.length);
         units.unknowns = moving.map(motion).collect();
         let state = RandomState { design: 1, motion: 1 };
         let (free, ids) = (topology.free.len(), &context.symbols.q.ids);

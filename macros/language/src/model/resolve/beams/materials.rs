@@ -10,7 +10,7 @@ use crate::base::dimension::Dimension;
 use crate::base::nearest::nearest;
 use crate::model::expression::Expr;
 use crate::model::simplify::{add, divide, multiply};
-use crate::syntax::ast::{ItemKind, Material, Value, ValueKind};
+use crate::syntax::ast::{Material, Value, ValueKind};
 
 static MATERIAL: Signature<()> = Signature::new(
     "material",
@@ -23,12 +23,9 @@ static MATERIAL: Signature<()> = Signature::new(
 impl Resolver<'_> {
     /// Every material is checked, used or not.
     pub(in crate::model::resolve) fn materials(&mut self) {
-        for item in &self.ast.items {
-            if let ItemKind::Material(material) = &item.kind {
-                let properties = self.declared_material(material);
-                let name = material.name.to_string();
-                self.materials.push((name, properties));
-            }
+        for material in self.ast.all::<Material>() {
+            let properties = self.declared_material(material);
+            self.materials.push((material.name.to_string(), properties));
         }
     }
 
@@ -49,8 +46,7 @@ impl Resolver<'_> {
         let (density, modulus, shear, poisson) = (density?, modulus?, shear?, poisson?);
         if let (Some(_), Some(_), Some(value)) = (&shear, &poisson, given.get("poisson")) {
             let message = "`shear_modulus` and `poisson` say the same: give one of them";
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         let shear_modulus = match (shear, &modulus, poisson) {
             (Some(shear), ..) => Some(shear),
@@ -86,8 +82,7 @@ impl Resolver<'_> {
             && !(-1.0 < number && number <= 0.5)
         {
             let message = format!("Poisson's ratio is {number}; it lies between -1 and 0.5");
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         Some(poisson)
     }
@@ -100,16 +95,14 @@ impl Resolver<'_> {
         };
         let ValueKind::Name(wanted) = &value.kind else {
             let message = "`material` is the name of a declared material";
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         };
         let own_names = ["density", "modulus", "shear_modulus", "poisson"];
         let other = own_names.into_iter().find_map(|name| Some((name, given.get(name)?)));
         if let Some((other, value)) = other {
             let message = format!("a beam takes `material` or `{other}`, not both");
             let help = format!("leave out `{other}`, or declare another material");
-            self.diagnostics.error_with_help(value.extent, message, help);
-            return None;
+            return self.refuse_with_help(value.extent, message, help);
         }
         let text = wanted.to_string();
         if let Some((_, material)) = self.materials.iter().find(|(name, _)| *name == text) {

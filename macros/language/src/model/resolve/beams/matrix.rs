@@ -7,7 +7,7 @@ use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::evaluate::Dependence;
 use crate::model::expression::Expr;
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::simplify::{divide, multiply, subtract};
 use crate::syntax::ast::{Value, ValueKind};
 
@@ -35,8 +35,7 @@ impl Resolver<'_> {
                 let message = "`stiffness` is a matrix of six rows with six entries";
                 let help =
                     "write `[[EA, ..], ..]`, in the order stretch, shear along y and z, twist, bending about y and z";
-                self.diagnostics.error_with_help(value.extent, message, help);
-                None
+                self.refuse_with_help(value.extent, message, help)
             })?;
         let mut entries = Vec::new();
         for (i, row) in rows.iter().enumerate() {
@@ -55,8 +54,7 @@ impl Resolver<'_> {
                 let size = (numbers[7 * i] * numbers[7 * j]).abs().sqrt();
                 if at(i, j) != at(j, i) && (here - there).abs() > ROUNDING * size {
                     let message = format!("`stiffness` is not symmetric: {here} here, {there} in row {}", j + 1);
-                    self.diagnostics.error(entry.extent, message);
-                    return None;
+                    return self.refuse(entry.extent, message);
                 }
             }
         }
@@ -67,15 +65,14 @@ impl Resolver<'_> {
             if !on_inputs.of(&pivot) && (number.is_nan() || number <= 0.0) {
                 let message = "`stiffness` is not positive definite: some strain would take no work";
                 let help = "leave out strains that nothing resists by rows of zeros";
-                self.diagnostics.error_with_help(extent, message, help);
-                return None;
+                return self.refuse_with_help(extent, message, help);
             }
-            self.requirements.push(Requirement {
-                what: format!("the stiffness of `{name}` against {} with the strains of earlier rows free", STRAINS[k]),
-                values: vec![pivot],
-                demand: Demand::Positive(Dimension::new(if k < 3 { 1 } else { 3 }, 1, -2)),
+            self.require(
+                format!("the stiffness of `{name}` against {} with the strains of earlier rows free", STRAINS[k]),
+                [pivot],
+                Demand::Positive(Dimension::new(if k < 3 { 1 } else { 3 }, 1, -2)),
                 extent,
-            });
+            );
         }
         let mut diagonal = [0; 6].map(|_| Expr::Number(0.0));
         let mut coupling = Vec::new();

@@ -79,15 +79,13 @@ impl Resolver<'_> {
             (Some(_), Some((name, value))) => {
                 let message = format!("a beam takes `section` or `{name}`, not both");
                 let help = format!("leave out `{name}`, or give all numbers without a `section`");
-                self.diagnostics.error_with_help(value.extent, message, help);
-                None
+                self.refuse_with_help(value.extent, message, help)
             }
             (Some(value), None) => {
                 let ValueKind::Sections(calls) = &value.kind else {
                     let message = "`section` is a shape";
                     let help = "write `section: rectangle(width: 40 mm, height: 6 mm)`";
-                    self.diagnostics.error_with_help(value.extent, message, help);
-                    return None;
+                    return self.refuse_with_help(value.extent, message, help);
                 };
                 let center = self.center(given)?;
                 self.shaped(name, word, calls, (material?, center))
@@ -98,8 +96,7 @@ impl Resolver<'_> {
                 if matches!(ends[0], Expr::Number(0.0)) {
                     let message = "`beam` needs `mass_per_length`";
                     let help = "write `mass_per_length: 0.5 kg/m`";
-                    self.diagnostics.error_with_help(word, message, help);
-                    return None;
+                    return self.refuse_with_help(word, message, help);
                 }
                 Some(Table {
                     kind: Kind::Numbers,
@@ -114,8 +111,7 @@ impl Resolver<'_> {
             (None, None) => {
                 let message = "`beam` needs a `section`, or `mass_per_length` and stiffnesses";
                 let help = "write `section: rectangle(width: 40 mm, height: 6 mm), material: steel`";
-                self.diagnostics.error_with_help(word, message, help);
-                None
+                self.refuse_with_help(word, message, help)
             }
         }
     }
@@ -155,8 +151,7 @@ impl Resolver<'_> {
         if let [Some((size, value)), None] | [None, Some((size, value))] = sizes {
             let message = format!("`{size}` alone is not the size of a section");
             let help = "give `width` and `height`, which pictures show, or neither";
-            self.diagnostics.error_with_help(value.extent, message, help);
-            return None;
+            return self.refuse_with_help(value.extent, message, help);
         }
         let Some(value) = given.get("stiffness") else {
             return Some((all, Vec::new()));
@@ -165,8 +160,7 @@ impl Resolver<'_> {
         if let Some(again) = again {
             let message = format!("`stiffness` and `{}` say the same", names[*again]);
             let help = "give the matrix, or its diagonal by names";
-            self.diagnostics.error_with_help(value.extent, message, help);
-            return None;
+            return self.refuse_with_help(value.extent, message, help);
         }
         let Stiffness { diagonal, coupling } = self.stiffness_matrix(name, value)?;
         let [twist, about_y, about_z, strains @ ..] = diagonal;
@@ -192,8 +186,7 @@ impl Resolver<'_> {
         };
         let message = "the centre of mass is given for the section and for the whole beam";
         let help = "give it once: within `section(...)` it may change along the beam";
-        self.diagnostics.error_with_help(value.extent, message, help);
-        None
+        self.refuse_with_help(value.extent, message, help)
     }
 
     fn shaped(
@@ -209,16 +202,14 @@ impl Resolver<'_> {
             [.., last] => {
                 let message = "a section changes from one shape to one other";
                 let help = "put beams in series for more";
-                self.diagnostics.error_with_help(&last.word, message, help);
-                return None;
+                return self.refuse_with_help(&last.word, message, help);
             }
             [] => return None,
         };
         if root.word != tip.word {
             let message = format!("a `{}` cannot become a `{}`", root.word, tip.word);
             let help = "give both ends the same shape: its dimensions change along the beam";
-            self.diagnostics.error_with_help(&tip.word, message, help);
-            return None;
+            return self.refuse_with_help(&tip.word, message, help);
         }
         let signature = self.signature(root, "section", &KINDS, &SYNONYMS)?;
         let kind = signature.read;
@@ -245,8 +236,7 @@ impl Resolver<'_> {
             if let Some(missing) = missing {
                 let message = format!("`beam` needs a `material`, or {missing}");
                 let help = "write `material: steel` and declare `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
-                self.diagnostics.error_with_help(word, message, help);
-                return None;
+                return self.refuse_with_help(word, message, help);
             }
         }
         let first = ends.first()?.clone();

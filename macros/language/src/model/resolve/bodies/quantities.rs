@@ -6,7 +6,7 @@ use super::super::resolver::Resolver;
 use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::simplify;
 use crate::syntax::ast::Value;
 
@@ -24,12 +24,7 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
     }
 
     pub(super) fn require(&mut self, what: &str, values: Vec<Expr>, demand: Demand, at: &Value) {
-        self.resolver.requirements.push(Requirement {
-            what: format!("the {what} of `{}`", self.body),
-            values,
-            demand,
-            extent: at.extent,
-        });
+        self.resolver.require(format!("the {what} of `{}`", self.body), values, demand, at.extent);
     }
 
     fn positive(&mut self, name: &str, words: &str, dimension: Dimension) -> Option<Expr> {

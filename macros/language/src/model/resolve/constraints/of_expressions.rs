@@ -11,7 +11,7 @@ use crate::base::ids::CoordinateId;
 use crate::base::span::Extent;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{ConstraintLaw, CoordinateQuantity};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::simplify;
 use crate::syntax::ast::Value;
 
@@ -22,10 +22,7 @@ impl Resolver<'_> {
     pub(super) fn coupling(&mut self, arguments: &Arguments) -> Option<(ConstraintLaw, Exerted)> {
         let (of, with) = self.coupled(arguments);
         let ratio = self.ratio(arguments, of, with);
-        let offset = of.map(|(_, quantity)| match quantity {
-            CoordinateQuantity::Angle => Expected::angle(),
-            CoordinateQuantity::Displacement => Dimension::LENGTH.into(),
-        });
+        let offset = of.map(|(_, quantity)| quantity.either(Expected::angle(), Dimension::LENGTH.into()));
         let offset = self.coefficient_or_zero(arguments, "offset", offset);
         let ((of, quantity), (with, _)) = (of?, with?);
         self.coupled_motions(arguments, of, with)?;
@@ -68,12 +65,7 @@ impl Resolver<'_> {
         });
         let ratio = self.coefficient(arguments, "ratio", expected)?;
         let extent = arguments.get("ratio")?.extent;
-        self.requirements.push(Requirement {
-            what: "this ratio".to_string(),
-            values: vec![ratio.clone()],
-            demand: Demand::Ratio,
-            extent,
-        });
+        self.require("this ratio", [ratio.clone()], Demand::Ratio, extent);
         Some(ratio)
     }
 
@@ -84,24 +76,22 @@ impl Resolver<'_> {
         let name = |id: CoordinateId| Some(self.coordinates.get(id.index())?.name.to_string());
         let (first, second) = (name(of)?, name(with)?);
         if self.is_driven(of) && self.is_driven(with) {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 extent,
                 format!("`{first}` and `{second}` are both driven: nothing is left to couple"),
                 "leave out one of the drives, and let that coordinate be `coasting`",
             );
-            return None;
         }
         let (running, at_rest) = match (self.runs(of)?, self.runs(with)?) {
             (true, false) => (first, second),
             (false, true) => (second, first),
             _ => return Some(()),
         };
-        self.diagnostics.error_with_help(
+        self.refuse_with_help(
             extent,
             format!("`{running}` runs, but `{at_rest}` is at rest in steady motion"),
             format!("let `{at_rest}` be `coasting`"),
-        );
-        None
+        )
     }
 
     /// An expression of coordinates and points.
@@ -114,12 +104,11 @@ impl Resolver<'_> {
             _ => false,
         });
         if !unknown {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 value.extent,
                 "this equation ties nothing: no free coordinate enters it",
                 "write it with coordinates, or with positions of points",
             );
-            return None;
         }
         self.runs_without_points(&zero, value.extent)?;
         self.equation_with_reaction(zero, quantity.dimension(), value)
@@ -138,12 +127,11 @@ impl Resolver<'_> {
             return Some(());
         };
         let name = self.coordinates.get(id.index())?.name;
-        self.diagnostics.error_with_help(
+        self.refuse_with_help(
             extent,
             format!("`{name}` runs, so it has no place that could be tied to a point"),
             "an equation of running coordinates holds no points",
-        );
-        None
+        )
     }
 
     /// The equation, with its reaction: this does work on changes of the expression.

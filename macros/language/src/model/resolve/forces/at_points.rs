@@ -22,24 +22,20 @@ impl Resolver<'_> {
             _ => {
                 let message = "`on` is the name of a beam";
                 let help = "a force at one place of a body is a `load`";
-                self.diagnostics.error_with_help(value.extent, message, help);
-                None
+                self.refuse_with_help(value.extent, message, help)
             }
         });
         let per_length = Expected::force_per_length;
         let force = self.vector_or_zero(arguments, "force", per_length());
         let follower = self.vector_or_zero(arguments, "follower", per_length());
-        let damping = Some(Dimension::new(-1, 1, -1).into());
-        let damping = self.coefficient_or_zero(arguments, "damping", damping);
+        let damping = self.coefficient_or_zero(arguments, "damping", Dimension::new(-1, 1, -1));
         Some(ForceLaw::Distributed { on: on?, force: force?, follower: follower?, damping: damping? })
     }
 
     pub(super) fn drag(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let point = self.moving_point(arguments, "it never moves");
-        let damping = Some(Dimension::DAMPING.into());
-        let damping = self.coefficient_or_zero(arguments, "damping", damping);
-        let turning = Some(Expected::rotary_damping());
-        let turning_damping = self.coefficient_or_zero(arguments, "turning_damping", turning);
+        let damping = self.coefficient_or_zero(arguments, "damping", Dimension::DAMPING);
+        let turning_damping = self.coefficient_or_zero(arguments, "turning_damping", Expected::rotary_damping());
         Some(ForceLaw::Drag { point: point?, damping: damping?, turning_damping: turning_damping? })
     }
 
@@ -49,8 +45,7 @@ impl Resolver<'_> {
         if self.point_frame(point)? == "ground" {
             let value = arguments.get("at")?;
             let message = format!("this point is fixed in the ground: {reason}");
-            self.diagnostics.error(value.extent, message);
-            return None;
+            return self.refuse(value.extent, message);
         }
         Some(point)
     }

@@ -11,12 +11,9 @@ use crate::model::mechanism::ForceLaw;
 impl Resolver<'_> {
     pub(super) fn spring_damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let ends = self.ends(arguments, "their distance never changes");
-        let stiffness = Some(Dimension::STIFFNESS.into());
-        let stiffness = self.coefficient(arguments, "stiffness", stiffness);
-        let damping = Some(Dimension::DAMPING.into());
-        let damping = self.coefficient_or_zero(arguments, "damping", damping);
-        let length = Some(Dimension::LENGTH.into());
-        let length = self.coefficient_or_zero(arguments, "length", length);
+        let stiffness = self.coefficient(arguments, "stiffness", Dimension::STIFFNESS);
+        let damping = self.coefficient_or_zero(arguments, "damping", Dimension::DAMPING);
+        let length = self.coefficient_or_zero(arguments, "length", Dimension::LENGTH);
         let (from, to) = ends?;
         Some(ForceLaw::SpringDamper { from, to, stiffness: stiffness?, damping: damping?, length: length? })
     }

@@ -7,7 +7,7 @@ use super::super::resolver::Resolver;
 use super::super::typed::ValueContext;
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{CoordinateQuantity, ForceLaw};
+use crate::model::mechanism::ForceLaw;
 
 impl Resolver<'_> {
     pub(super) fn generalized(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
@@ -15,10 +15,7 @@ impl Resolver<'_> {
         let law = arguments.get("value")?;
         let (value, dimension) = self.scalar(law, ValueContext::GeneralizedForce)?;
         let (coordinate, quantity) = target?;
-        let expected = match quantity {
-            CoordinateQuantity::Angle => Expected::moment(),
-            CoordinateQuantity::Displacement => Dimension::FORCE.into(),
-        };
+        let expected = quantity.either(Expected::moment(), Dimension::FORCE.into());
         self.expect(dimension, expected, "this generalized force", law)?;
         Some(ForceLaw::Generalized { coordinate, value })
     }
@@ -29,12 +26,11 @@ impl Resolver<'_> {
         let (energy, quantity) = self.scalar(value, ValueContext::Energy)?;
         self.expect(quantity, Expected::energy(), "a potential", value)?;
         if !self.moves(&energy) {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 value.extent,
                 "this energy never changes, so it exerts no force",
                 "write it with coordinates, or with positions of points",
             );
-            return None;
         }
         Some(ForceLaw::Potential { energy })
     }

@@ -13,12 +13,7 @@ use crate::syntax::print;
 impl Resolver<'_> {
     pub(super) fn spring(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let target = self.free_coordinate("spring", arguments);
-        let pick = |angle: Expected, displacement: Dimension| {
-            Some(match target?.1 {
-                CoordinateQuantity::Angle => angle,
-                CoordinateQuantity::Displacement => displacement.into(),
-            })
-        };
+        let pick = |angle: Expected, displacement: Dimension| Some(target?.1.either(angle, displacement.into()));
         let stiffness = pick(Expected::rotary_stiffness(), Dimension::STIFFNESS);
         let stiffness = self.coefficient(arguments, "stiffness", stiffness);
         let rest = pick(Expected::angle(), Dimension::LENGTH);
@@ -28,20 +23,16 @@ impl Resolver<'_> {
 
     pub(super) fn damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let target = self.free_coordinate("damper", arguments);
-        let damping = target.map(|(_, quantity)| match quantity {
-            CoordinateQuantity::Angle => Expected::rotary_damping(),
-            CoordinateQuantity::Displacement => Dimension::DAMPING.into(),
-        });
+        let damping =
+            target.map(|(_, quantity)| quantity.either(Expected::rotary_damping(), Dimension::DAMPING.into()));
         let damping = self.coefficient(arguments, "damping", damping);
         Some(ForceLaw::CoordinateDamper { coordinate: target?.0, damping: damping? })
     }
 
     pub(super) fn inerter(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let target = self.free_coordinate("inerter", arguments);
-        let inertance = target.map(|(_, quantity)| match quantity {
-            CoordinateQuantity::Angle => Dimension::INERTIA.into(),
-            CoordinateQuantity::Displacement => Dimension::MASS.into(),
-        });
+        let inertance =
+            target.map(|(_, quantity)| Expected::from(quantity.either(Dimension::INERTIA, Dimension::MASS)));
         let inertance = self.coefficient(arguments, "inertance", inertance);
         Some(ForceLaw::CoordinateInerter { coordinates: [target?.0; 2], inertance: inertance? })
     }
@@ -63,36 +54,31 @@ impl Resolver<'_> {
                 _ => "write one `generalized` force on each coordinate, with `rate` of the others in its `value`"
                     .to_string(),
             };
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 on.extent,
                 format!("a {word} acts on one coordinate, given by its name"),
                 help,
             );
-            return None;
         }
         let name = self.name_of(on, "coordinate")?;
         let coordinate = self.coordinate(name)?;
         match self.coordinates.get(coordinate.0.index())?.motion {
             motion @ (DeclaredMotion::Driven | DeclaredMotion::Shaken) => {
                 let given = motion.word();
-                self.diagnostics.error_with_help(
+                self.refuse_with_help(
                     name,
                     format!("`{name}` is {given}; a {word} on it has no effect on the motion"),
                     match motion {
                         DeclaredMotion::Shaken => format!("remove the {word}, or `shaken`"),
                         _ => format!("remove the {word}, or the drive"),
                     },
-                );
-                None
+                )
             }
-            DeclaredMotion::Coasting if word == "spring" => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{name}` is coasting: nothing may depend on how far it has gone"),
-                    "a `damper` or a `generalized` force may act on it",
-                );
-                None
-            }
+            DeclaredMotion::Coasting if word == "spring" => self.refuse_with_help(
+                name,
+                format!("`{name}` is coasting: nothing may depend on how far it has gone"),
+                "a `damper` or a `generalized` force may act on it",
+            ),
             _ => Some(coordinate),
         }
     }

@@ -67,8 +67,7 @@ impl<'a> Resolver<'a> {
             DeclaredMotion::Free | DeclaredMotion::Shaken => "in steady motion it is zero",
         };
         let message = format!("the rate of `{name}` is no output: {reason}");
-        self.diagnostics.error(function, message);
-        None
+        self.refuse(function, message)
     }
 
     /// Requires all forces to have a known potential, which `tension`, `generalized` and `bushing` do not have.
@@ -83,12 +82,11 @@ impl<'a> Resolver<'a> {
         let Some((name, word)) = unknown else {
             return Some(());
         };
-        self.diagnostics.error_with_help(
+        self.refuse_with_help(
             function,
             format!("the energy of `{name}` is unknown: a {word} gives its force only"),
             "write the force as a `potential`, or leave out this output",
-        );
-        None
+        )
     }
 
     /// Curvature, moment, strain or force of a beam at a point of it.
@@ -100,8 +98,7 @@ impl<'a> Resolver<'a> {
             let function = function.replace('_', " ");
             let message = format!("`{name}` is not on a beam: it has no {function}");
             let help = "declare a point of the beam: `point gauge: blade at 0.3 length;`";
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
+            return self.refuse_with_help(name, message, help);
         }
         let (first, dimension) = match function {
             "curvature" => (0, Dimension::new(-1, 0, 0)),
@@ -121,10 +118,7 @@ impl<'a> Resolver<'a> {
 
     /// The declaration of a point.
     pub(in crate::model::resolve) fn declared_point(&self, name: &Ident) -> Option<&'a ast::Point> {
-        self.ast.items.iter().find_map(|item| match &item.kind {
-            ItemKind::Point(point) if point.name == *name => Some(point),
-            _ => None,
-        })
+        self.ast.all::<ast::Point>().find(|point| point.name == *name)
     }
 
     /// Requires that the sections of a beam stretch or shear by coordinates.
@@ -135,8 +129,7 @@ impl<'a> Resolver<'a> {
         }
         let message = format!("`{beam}` neither stretches nor shears by coordinates of its own");
         let help = "give the beam `stretch: 2` or `shear: 5`, or ask for `curvature`";
-        self.diagnostics.error_with_help(name, message, help);
-        None
+        self.refuse_with_help(name, message, help)
     }
 
     /// The force inside a beam is what its outer part transmits: the beam ends there, and another continues it.
@@ -151,8 +144,7 @@ impl<'a> Resolver<'a> {
         if !is_inside {
             let message = "the force inside a beam is known behind its root only";
             let help = "at the root, write `reaction_force` of the joint that holds the beam";
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
+            return self.refuse_with_help(name, message, help);
         }
         self.cut_open.insert(name.to_string());
         Some(())
@@ -170,8 +162,7 @@ impl<'a> Resolver<'a> {
             ValueKind::Name(name) => Some(name),
             _ => {
                 let message = format!("the name of a {kind} is expected here");
-                self.diagnostics.error(value.extent, message);
-                None
+                self.refuse(value.extent, message)
             }
         }
     }

@@ -9,7 +9,7 @@ use super::super::typed::{Quantity, Typed};
 use crate::base::dimension::Dimension;
 use crate::base::ids::{ConstraintId, ForceId};
 use crate::model::expression::Expr;
-use crate::syntax::ast::{ItemKind, Value};
+use crate::syntax::ast::{self, Value};
 
 const KIND: &str = "joint or constraint";
 
@@ -62,14 +62,11 @@ impl Resolver<'_> {
                 let value = Expr::Exerted(id, 0);
                 Some(Typed::Scalar(value, Quantity::Of(Dimension::FORCE)))
             }
-            Some(Meaning::Joint(_) | Meaning::OnlyCoordinate(_)) => {
-                self.diagnostics.error_with_help(
-                    name,
-                    format!("`{name}` is a joint; a constraint is expected here"),
-                    format!("write `reaction_force({name})` or `reaction_moment({name})`"),
-                );
-                None
-            }
+            Some(Meaning::Joint(_) | Meaning::OnlyCoordinate(_)) => self.refuse_with_help(
+                name,
+                format!("`{name}` is a joint; a constraint is expected here"),
+                format!("write `reaction_force({name})` or `reaction_moment({name})`"),
+            ),
             other => {
                 let right = |meaning| matches!(meaning, Meaning::Constraint(_));
                 self.wrong_reference(name, "constraint", other, right);
@@ -80,10 +77,7 @@ impl Resolver<'_> {
 
     /// The word of a force law.
     fn law_word(&self, id: ForceId) -> Option<&'static str> {
-        let mut forces = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Force(force) if !force.is_harmonic() => Some(force),
-            _ => None,
-        });
+        let mut forces = self.ast.all::<ast::Force>().filter(|force| !force.is_harmonic());
         let word = forces.nth(id.index())?.law.word.to_string();
         ["bushing", "spring_damper", "tension"].into_iter().find(|known| *known == word)
     }

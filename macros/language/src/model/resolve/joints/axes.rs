@@ -11,7 +11,7 @@ use crate::base::nearest::nearest;
 use crate::base::span::Extent;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{JointStep, StepMotion};
-use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::rules::physical::Demand;
 use crate::model::simplify;
 use crate::syntax::ast::{Joint, JointArgument, Value};
 
@@ -57,24 +57,17 @@ impl Resolver<'_> {
             return Some(Expr::Number(0.0));
         }
         let Some((first, more)) = leads.split_first() else {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 &joint.kind,
                 "`screw` needs `lead`, the travel per turn",
                 format!("write `{}`", kind.example),
             );
-            return None;
         };
         if let Some(second) = more.first() {
-            self.diagnostics.error(second.value.extent, "`lead` is given twice");
-            return None;
+            return self.refuse(second.value.extent, "`lead` is given twice");
         }
         let lead = self.scalar_of(&first.value, Dimension::LENGTH, "`lead`")?;
-        self.requirements.push(Requirement {
-            what: format!("the lead of `{}`", joint.name),
-            values: vec![lead.clone()],
-            demand: Demand::Lead,
-            extent: first.value.extent,
-        });
+        self.require(format!("the lead of `{}`", joint.name), [lead.clone()], Demand::Lead, first.value.extent);
         Some(simplify::divide(lead, Expr::Number(TAU)))
     }
 
@@ -107,8 +100,7 @@ impl Resolver<'_> {
                 (None, 2..) => (axis.value.extent, format!("each coordinate of `{word}` needs a name")),
                 _ => continue,
             };
-            self.diagnostics.error_with_help(extent, message, help);
-            return None;
+            return self.refuse_with_help(extent, message, help);
         }
         Some(())
     }
@@ -124,15 +116,13 @@ impl Resolver<'_> {
                 let first = joint.arguments.iter().flatten().next()?;
                 let extent = first.name.as_ref().map_or(first.value.extent, Extent::from);
                 let message = format!("`{word}` takes no argument");
-                self.diagnostics.error(extent, message);
-                return None;
+                return self.refuse(extent, message);
             }
             1 if kind.is_screw() => (format!("`{word}` needs one axis"), format!("write `{example}`")),
             1 => (format!("`{word}` needs one axis"), format!("write `{word}(z)` or `{word}([1, 0, 1])`")),
             several => (format!("`{word}` needs {several} axes, not {given}"), format!("write `{example}`")),
         };
-        self.diagnostics.error_with_help(&joint.kind, message, help);
-        None
+        self.refuse_with_help(&joint.kind, message, help)
     }
 
     /// Checks the conditions that the kind of joint places on its axes.
@@ -162,8 +152,7 @@ impl Resolver<'_> {
                     if cosine.is_some_and(|cosine| cosine > NEARLY) {
                         let message =
                             format!("the last axis of `{}` must be perpendicular to the first two", kind.word);
-                        self.diagnostics.error(axes.get(second)?.value.extent, message);
-                        return None;
+                        return self.refuse(axes.get(second)?.value.extent, message);
                     }
                 }
             }
@@ -189,12 +178,7 @@ impl Resolver<'_> {
             last = Some(&axis.value);
         }
         let (end, start) = names.split_last()?;
-        self.requirements.push(Requirement {
-            what: format!("the axes of {} and {end}", start.join(", ")),
-            values,
-            demand,
-            extent: last?.extent,
-        });
+        self.require(format!("the axes of {} and {end}", start.join(", ")), values, demand, last?.extent);
         Some(())
     }
 }

@@ -15,21 +15,18 @@ impl Resolver<'_> {
             return Some(false);
         };
         if let Some(second) = clauses.next() {
-            self.diagnostics.error(second, "this joint is cut twice");
-            return None;
+            return self.refuse(second, "this joint is cut twice");
         }
         let kind = kind?;
         if kind.is_screw() {
-            self.diagnostics.error_with_help(first, "a screw joint cannot be cut", "cut another joint of the loop");
-            return None;
+            return self.refuse_with_help(first, "a screw joint cannot be cut", "cut another joint of the loop");
         }
         if kind.is_free() {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 first,
                 "a free joint holds nothing, so that it closes no loop",
                 "leave the joint out",
             );
-            return None;
         }
         Some(true)
     }

@@ -97,16 +97,14 @@ impl Resolver<'_> {
                 }
                 _ => "a drive prescribes the speed, a coasting coordinate finds its own: keep one of them",
             };
-            self.diagnostics.error_with_help(keyword, message, help);
-            return None;
+            return self.refuse_with_help(keyword, message, help);
         }
         let what = name.map_or("this joint".to_string(), |name| format!("`{name}`"));
         let message = match motion {
             DeclaredMotion::Coasting => format!("{what} is said to coast twice"),
             _ => format!("{what} is {} twice", motion.word()),
         };
-        self.diagnostics.error(keyword, message);
-        None
+        self.refuse(keyword, message)
     }
 
     /// A shaken coordinate is held at zero in the steady motion.
@@ -138,7 +136,7 @@ impl Resolver<'_> {
                 let (names, quoted) = self.names_of(ids);
                 // Without coordinates the axes are wrong, which has been reported.
                 let first = names.first()?;
-                self.diagnostics.error_with_help(
+                return self.refuse_with_help(
                     keyword,
                     format!("`{}` has the coordinates {quoted}", joint.name),
                     match motion {
@@ -148,7 +146,6 @@ impl Resolver<'_> {
                         _ => format!("say which one is driven: `{first} driven at ...`"),
                     },
                 );
-                return None;
             }
         };
         self.is_not_cut(joint, &format!("be {word}"), keyword)?;
@@ -158,20 +155,18 @@ impl Resolver<'_> {
     fn has_motions(&mut self, kind: &Kind, verb: &str, keyword: Extent) -> Option<()> {
         if kind.motions.is_empty() {
             let message = format!("a fixed joint cannot {verb}");
-            self.diagnostics.error(keyword, message);
-            return None;
+            return self.refuse(keyword, message);
         }
         Some(())
     }
 
     fn is_not_cut(&mut self, joint: &Joint, verb: &str, keyword: Extent) -> Option<()> {
         if coordinates::is_cut(joint) {
-            self.diagnostics.error_with_help(
+            return self.refuse_with_help(
                 keyword,
                 format!("a cut joint cannot {verb}: it has no coordinates"),
                 "cut another joint of the loop",
             );
-            return None;
         }
         Some(())
     }
