@@ -284,12 +284,11 @@ fn nodes_that_turn_are_particles_that_turn() {
         file("m.mtx", &spread(&heavy)) + &file("k.mtx", &spread(&elastic)),
     ];
     let mut bodies = String::new();
-    for k in 0..3 {
+    for (k, mass) in masses.iter().enumerate() {
         bodies += &format!(
-            "body xs{k}: massless; body ys{k}: massless; body p{k}: point(mass: weight * {} kg);
+            "body xs{k}: massless; body ys{k}: massless; body p{k}: point(mass: weight * {mass} kg);
             joint x{k}: prismatic(x) from hub to xs{k} at {}; joint y{k}: prismatic(y) from xs{k} to ys{k};
             joint z{k}: prismatic(z) from ys{k} to p{k};",
-            masses[k],
             place(k)
         );
     }
