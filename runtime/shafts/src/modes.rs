@@ -419,9 +419,11 @@ impl Assembly {
     /// what the slowest of them is, or the space has more directions.
     fn krylov(&self, (count, sure): (usize, usize), wanted: &impl Fn(Complex) -> bool) -> Result<Vec<Ritz>, Error> {
         let (mut shift, mut steps) = (SHIFT * self.typical_frequency(), 2 * count + 14);
+        let mut at = self.at(shift.into()).ok_or(Error::NotConverged)?;
+        let mut space = self.space(&at, shift);
         let mut found = Vec::new();
         for _ in 0..SPACES {
-            let space = self.space(shift, steps)?;
+            self.extend(&mut space, &at, steps);
             let ritz = space.ritz(self.stations(), 2 * count, wanted)?;
             let mut left = sure;
             let is_known = ritz.iter().take(2 * count).all(|own| {
@@ -432,13 +434,14 @@ impl Assembly {
             let rigid = SLOW * self.rigid();
             let slowest =
                 ritz.iter().map(|own| own.s.norm()).filter(|size| *size > rigid).fold(f64::INFINITY, f64::min);
-            let is_whole = space.basis.len() < steps;
             found = ritz.into_iter().filter(|own| own.stations.is_some()).take(count).collect();
-            if is_known || is_whole {
+            if is_known || space.is_whole() {
                 break;
             }
             if slowest < 0.5 * shift {
                 shift = slowest;
+                at = self.at(shift.into()).ok_or(Error::NotConverged)?;
+                space = self.space(&at, shift);
             } else {
                 steps += steps / 2;
             }
@@ -462,12 +465,9 @@ impl Assembly {
         (RIGID * self.terms()).sqrt()
     }
 
-    /// A Krylov space about a shift. The shift is real, and so are all vectors: planar motions are real where that of `y - i z` is
-    /// the conjugate of that of `y + i z`, which alone is kept.
-    fn space(&self, shift: f64, steps: usize) -> Result<Space, Error> {
-        let typical = shift / SHIFT;
-        let shift = Complex::new(shift, 0.0);
-        let at = self.at(shift).ok_or(Error::NotConverged)?;
+    /// A Krylov space about a shift, of one direction. The shift is real, and so are all vectors: planar motions are real where that of
+    /// `y - i z` is the conjugate of that of `y + i z`, which alone is kept.
+    fn space(&self, at: &At<'_>, shift: f64) -> Space {
         let mut seed = 1_u64;
         let mut first = self.still(Kept::First);
         first.stations = Vector::from_fn(self.stations(), |_| {
@@ -475,35 +475,35 @@ impl Assembly {
             Complex::new((seed >> 40) as f64 / (1 << 24) as f64 - 0.5, 0.0)
         });
         let first = at.solve_real(first);
-        // The second half of a vector is the first times `s`: divided by what is typical, both weigh alike.
-        let flat = |x: &Motion, v: &Motion| {
-            let mut all = Vec::new();
-            x.reals_into(1.0, &mut all);
-            all.reserve(all.len());
-            v.reals_into(1.0 / typical, &mut all);
-            all
-        };
-        let mut start = flat(&first, &first);
-        let half = start.len() / 2;
-        let most = steps.min(2 * half);
+        let mut space = Space { shift, basis: Vec::new(), columns: Vec::new() };
+        let mut start = space.flat(&first, &first);
         normalise(&mut start);
-        let mut basis = vec![start];
-        let mut hessenberg = Matrix::<f64>::zeros(most, most);
-        let (mut x, mut v) = (first.clone(), first);
-        let (mut size, mut rest) = (most, 0.0);
-        for k in 0..most {
-            x.set_reals(&basis[k][..half], 1.0);
-            v.set_reals(&basis[k][half..], typical);
+        space.basis.push(start);
+        space
+    }
+
+    /// Adds directions to a space, up to so many, as long as there are others.
+    fn extend(&self, space: &mut Space, at: &At<'_>, steps: usize) {
+        let shift = Complex::new(space.shift, 0.0);
+        let (mut x, mut v) = (self.still(Kept::First), self.still(Kept::First));
+        let half = space.basis[0].len() / 2;
+        for k in space.columns.len()..steps.min(2 * half) {
+            if space.is_whole() {
+                return;
+            }
+            x.set_reals(&space.basis[k][..half], 1.0);
+            v.set_reals(&space.basis[k][half..], space.typical());
             let mut loads = self.momentum(&x, &v, shift);
             loads.scale(Complex::new(-1.0, 0.0));
             let w = at.solve_real(loads);
             x.add(shift, &w);
-            let mut next = flat(&w, &x);
+            let mut next = space.flat(&w, &x);
             let before = product(&next, &next).sqrt();
+            let mut column = vec![0.0; k + 2];
             for _ in 0..2 {
-                let shares: Vec<f64> = basis.iter().map(|own| product(own, &next)).collect();
-                for (j, (own, share)) in basis.iter().zip(&shares).enumerate() {
-                    hessenberg[j][k] += share;
+                let shares: Vec<f64> = space.basis.iter().map(|own| product(own, &next)).collect();
+                for ((own, share), to) in space.basis.iter().zip(&shares).zip(&mut column) {
+                    *to += share;
                     add_to(&mut next, -share, own);
                 }
                 // What is not much shorter than before has lost nothing to rounding.
@@ -511,18 +511,11 @@ impl Assembly {
                     break;
                 }
             }
-            rest = normalise(&mut next);
-            if rest <= 1e-13 * before {
-                (size, rest) = (k + 1, 0.0);
-                break;
-            }
-            if k + 1 < most {
-                hessenberg[k + 1][k] = rest;
-                basis.push(next);
-            }
+            let rest = normalise(&mut next);
+            column[k + 1] = if rest <= 1e-13 * before { 0.0 } else { rest };
+            space.columns.push(column);
+            space.basis.push(next);
         }
-        basis.truncate(size);
-        Ok(Space { shift, basis, hessenberg, rest })
     }
 
     /// That of the longest span between hinges, 1/s.
@@ -578,10 +571,11 @@ fn normalised(x: &mut [Complex]) -> f64 {
 
 /// An orthonormal basis with what the shifted and inverted pencil is in it, and what it leaves of the last direction.
 struct Space {
-    shift: Complex,
+    shift: f64,
+    /// One more than there are columns.
     basis: Vec<Vec<f64>>,
-    hessenberg: Matrix,
-    rest: f64,
+    /// Of the Hessenberg matrix, down to what is left of the next direction.
+    columns: Vec<Vec<f64>>,
 }
 
 /// An approximation from a Krylov space: with the motion of the stations if it is wanted, and its error as far as what is left of its equation says.
@@ -592,10 +586,31 @@ struct Ritz {
 }
 
 impl Space {
+    fn typical(&self) -> f64 {
+        self.shift / SHIFT
+    }
+
+    /// Whether nothing leads out of it.
+    fn is_whole(&self) -> bool {
+        let of_column = |column: &Vec<f64>| column.last().is_some_and(|rest| *rest == 0.0);
+        self.columns.last().is_some_and(of_column) || self.columns.len() >= self.basis[0].len()
+    }
+
+    /// A motion and its rate as one vector. The second half is the first times `s`: divided by what is typical, both weigh alike.
+    fn flat(&self, x: &Motion, v: &Motion) -> Vec<f64> {
+        let mut all = Vec::new();
+        x.reals_into(1.0, &mut all);
+        all.reserve(all.len());
+        v.reals_into(1.0 / self.typical(), &mut all);
+        all
+    }
+
     /// The approximations nearest to the shift, so many and then the wanted ones only.
     fn ritz(&self, stations: usize, count: usize, wanted: &impl Fn(Complex) -> bool) -> Result<Vec<Ritz>, Error> {
-        let size = self.basis.len();
-        let mut small = Matrix::from_fn(size, size, |i, j| self.hessenberg[i][j]);
+        let size = self.columns.len();
+        let hessenberg = Matrix::from_fn(size, size, |i, j| self.columns[j].get(i).copied().unwrap_or(0.0));
+        let last = self.columns.last().and_then(|column| column.last()).copied().unwrap_or(0.0);
+        let mut small = hessenberg.clone();
         let mut values = vec![Complex::ZERO; size];
         hessenberg_eigenvalues(size, small.as_flattened_mut(), &mut values).ok_or(Error::NotConverged)?;
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
@@ -606,10 +621,10 @@ impl Space {
             if !is_wanted && place >= count {
                 return None;
             }
-            let y = inverse_iteration(&self.hessenberg, size, value * (1.0 + 1e-12));
+            let y = inverse_iteration(&hessenberg, size, value * (1.0 + 1e-12));
             let length = y.iter().map(Complex::norm_sqr).sum::<f64>().sqrt();
             // As a change of `s`, relative to it.
-            let rest = self.rest * y[size - 1].norm() / (length * value.norm_sqr() * s.norm());
+            let rest = last * y[size - 1].norm() / (length * value.norm_sqr() * s.norm());
             let motion = || Vector::from_fn(stations, |i| (0..size).map(|j| y[j] * self.basis[j][i]).sum());
             Some(Ritz { s, stations: is_wanted.then(motion), rest })
         };

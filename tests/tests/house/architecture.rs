@@ -76,7 +76,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 62),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 63),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 496),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 424),

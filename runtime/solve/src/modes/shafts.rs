@@ -75,21 +75,15 @@ const UNDAMPED: f64 = 1e-12;
 /// Rounding of an eigenvalue in units of that of the largest terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// How many modes are sought: so many for each shaft, and one for each coordinate that is none of a shaft's.
+/// How many modes are sought: so many for each shaft, which has one span fewer than stations.
 fn count(of: &Description) -> usize {
     let bends = of.spans.iter().filter(|span| span.line != LineKind::Bar);
-    let first = |end: &[(usize, f64)]| end.first().map(|(index, _)| *index);
-    let mut stations: Vec<usize> =
-        bends.clone().flat_map(|span| span.ends.iter().filter_map(|end| first(end))).collect();
-    let mut own: Vec<usize> =
-        of.spans.iter().flat_map(|span| span.ends.iter().flat_map(|end| end.iter().map(|(index, _)| *index))).collect();
-    for list in [&mut stations, &mut own] {
-        list.sort_unstable();
-        list.dedup();
-    }
+    let ends = bends.clone().flat_map(|span| span.ends.iter().filter_map(|end| Some(end.first()?.0)));
+    let mut stations: Vec<usize> = ends.collect();
+    stations.sort_unstable();
+    stations.dedup();
     let shafts = stations.len().saturating_sub(bends.count()).max(1);
-    let others = of.coordinates.len() - own.len() - Structure::of(of).constraints();
-    (MODES * shafts + others).min(MOST_MODES)
+    (MODES * shafts).min(MOST_MODES)
 }
 
 impl Shafts {

@@ -389,9 +389,9 @@ fn slow_motions_beside_a_fast_shaft_are_found() {
             Study::new(machine(&text))
         };
         let modes = study("").modes().expect("modes").modes;
-        assert_eq!(modes.len(), 24);
+        assert_eq!(modes.len(), 12);
         let omega = |n: f64| (30.0 * n * n - 0.005 * 0.005_f64).sqrt();
-        for (n, mode) in (1..).zip(&modes).take(16) {
+        for (n, mode) in (1..).zip(&modes) {
             let expected = Complex::new(-0.005, omega(f64::from(n)));
             assert!((mode.s - expected).norm() < 1e-9 * expected.norm(), "{length} {n}: {} {expected}", mode.s);
         }
