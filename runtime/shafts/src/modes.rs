@@ -110,7 +110,7 @@ impl Assembly {
         let near: Vec<Complex> = found.iter().map(|own| own.s).collect();
         let starts = found.iter().zip(self.pencils(&near)).map(|(own, pencil)| {
             let stations = own.stations.clone()?;
-            let (pencil, factors) = self.factored_beside(own.s, pencil)?;
+            let (factors, pencil, _) = self.factored_beside(own.s, pencil)?;
             let start = turned(&pencil, &factors, own.s, stations);
             let next = self.step(start.clone(), pencil).filter(|(_, step)| *step < CONVERGED);
             Some(next.map_or(start, |(mode, _)| mode))
@@ -375,19 +375,21 @@ impl Assembly {
         BESIDE.iter().find_map(|part| self.at(s * (1.0 + part)))
     }
 
-    /// The same of the stations alone, from the pencil at `s`.
-    fn factored_beside(&self, s: Complex, pencil: Pencil) -> Option<(Pencil, Lu<Complex>)> {
-        let with_factors =
-            |pencil: Pencil| Some((factored(&pencil)?, pencil)).map(|(factors, pencil)| (pencil, factors));
-        let mut others = BESIDE[1..].iter();
-        with_factors(pencil).or_else(|| others.find_map(|part| with_factors(self.pencils(&[s * (1.0 + part)]).pop()?)))
+    /// The same of the stations alone, from the pencil at `s`: factors, the pencil that they are of, and whether it is another one.
+    fn factored_beside(&self, s: Complex, pencil: Pencil) -> Option<(Lu<Complex>, Pencil, bool)> {
+        if let Some(factors) = factored(&pencil) {
+            return Some((factors, pencil, false));
+        }
+        BESIDE[1..].iter().find_map(|part| {
+            let beside = self.pencils(&[s * (1.0 + part)]).pop()?;
+            Some((factored(&beside)?, beside, true))
+        })
     }
 
     /// A two-sided Newton step, and its size relative to `s`.
     fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64)> {
         let Mode { mut s, right, left } = mode;
-        let is_exact = factored(&pencil).is_none();
-        let (pencil, factors) = self.factored_beside(s, pencil)?;
+        let (factors, pencil, is_exact) = self.factored_beside(s, pencil)?;
         // T(s) right = on, so that on is what is left of the equations.
         let on = times(&pencil.slope, &right);
         let mut right = factors.solve(&on);

@@ -165,7 +165,8 @@ fn what_is_wrong_with_a_rotor_of_ross_is_named() {
         ("frequency = [ 0.0, 500.0, 1000.0,]", "frequency = [1.0]", "has not as many values as `frequency`"),
         ("kxx = [", "kxx = 7 [", "TOML parse error"),
         ("L = 0.25", "L = 0.2", "is not as long as"),
-        ("n = 1\nscale_factor = 1\n", "n = 1\nn_link = 8\n", "stands on another node"),
+        ("n = 1\nscale_factor = 1\n", "n = 1\nn_link = 3\n", "does not link the shaft to a support"),
+        ("n = 1\nscale_factor = 1\n", "n = 1\nn_link = 8\n", "node 8 is a support without mass"),
         ("G_s = ", "G = ", "has no number `G_s`"),
     ] {
         assert!(text.contains(old), "{old}");
