@@ -31,7 +31,7 @@ const TURNS: usize = 4;
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
 const CLOSE: f64 = 1e-9;
-/// A relative step behind which the next, unless it is much smaller, is rounding.
+/// A relative step behind which the next, unless it is much smaller, is rounding in any motion ([`jitter`]).
 const STAYS: f64 = 1e-7;
 /// The square of an eigenvalue that is rounding, as a part of the terms that cancel in it.
 const RIGID: f64 = 256.0 * f64::EPSILON;
@@ -252,6 +252,7 @@ impl Assembly {
         let mut running: Vec<(usize, Mode, f64)> =
             starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), f64::INFINITY)).collect();
         let mut found = vec![None; starts.len()];
+        let terms = self.terms();
         for _ in 0..STEPS {
             if running.is_empty() {
                 break;
@@ -261,7 +262,7 @@ impl Assembly {
             for ((place, mode, last), pencil) in running.into_iter().zip(self.pencils(&s)) {
                 let Some((mode, step)) = self.step(mode, pencil) else { continue };
                 // What remains is the cube of the last step, or rounding where steps no longer shrink.
-                let stays = step > 0.1 * last && step.max(last) < STAYS;
+                let stays = step > 0.1 * last && step.max(last) < jitter(mode.s, terms);
                 if step < CLOSE || stays {
                     found[place] = Some(mode);
                 } else {
@@ -333,7 +334,7 @@ impl Assembly {
     /// The same with all unknowns in place of those of the stations: `T` has poles where spans vibrate between stations that
     /// stand still, and next to one Newton's method leaves it. So many steps do not move `s`.
     fn with_all_unknowns(&self, start: &Mode, turns: usize) -> Option<Mode> {
-        let mut s = start.s;
+        let (mut s, terms) = (start.s, self.terms());
         let at = self.beside(s)?;
         let (mut right, mut left) = (at.condensed.motion(&start.right), at.condensed.weights(&start.left));
         for _ in 0..turns {
@@ -355,7 +356,7 @@ impl Assembly {
             let change = rest * size / left.product(&self.slope_loads(&right, at.s, Side::Right));
             s = at.s - change;
             let step = change.norm() / s.norm();
-            let stays = step > 0.1 * last && step.max(last) < STAYS;
+            let stays = step > 0.1 * last && step.max(last) < jitter(s, terms);
             last = step;
             if !step.is_finite() {
                 return None;
@@ -532,6 +533,11 @@ impl Assembly {
         let lowest = self.spans().iter().map(of_span).fold(f64::INFINITY, f64::min);
         if lowest.is_finite() { lowest } else { 1.0 }
     }
+}
+
+/// A relative step behind which the next, unless it is much smaller, is rounding: that of the terms, which cancel in a slow motion.
+fn jitter(s: Complex, terms: f64) -> f64 {
+    STAYS.max(ROUNDING * terms / s.norm_sqr())
 }
 
 fn factored(pencil: &Pencil) -> Option<Lu<Complex>> {

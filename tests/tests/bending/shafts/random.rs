@@ -508,6 +508,72 @@ fn no_mode_is_missed() {
     }
 }
 
+/// Short thick rotors on bearings that are nearly as stiff in both directions, by a ten-thousandth up to a hundredth: each mode has another
+/// one near it, which a Krylov space knows long after the first.
+#[test]
+fn bearings_that_are_nearly_round_have_modes_in_pairs() {
+    for seed in 1..13 {
+        let mut random = Random(seed);
+        let rows: String = (0..3)
+            .map(|_| format!("[{} mm, {} mm],", random.between(80.0, 260.0), random.between(190.0, 360.0)))
+            .collect();
+        let [stiffness, apart] =
+            [random.between(1.0, 12.0), random.between(-4.0, -2.0)].map(|power| 10_f64.powf(power));
+        let more = 1.0 + apart;
+        let text = format!(
+            "mechanism Paired {{ input omega: rad/s;
+                material titanium: density 4430 kg/m^3, modulus 114 GPa, poisson 0.33;
+                body rotor: shaft(along: x, up: z, material: titanium, sections: [{rows}], lag: 1 us) spinning at omega;
+                body disk: rigid(mass: 40 kg, inertia: [0.6, 0.4, 0.4] kg*m^2);
+                joint turns: revolute(x) from rotor at station 1 to disk, driven at omega;
+                point a: rotor at root; point seat_a: ground;
+                force left: bushing(from: seat_a, to: a, stiffness: {stiffness} * [0, 1, {more}] kN/m, damping: [0, 10, 11] kN*s/m,
+                    turning_stiffness: {stiffness} * [0, 1, {more}] kN*m/rad); }}"
+        );
+        let modes = Study::new(machine(&text)).modes().expect("modes").modes;
+        assert_eq!(modes.len(), 12, "{seed}");
+        for pair in modes.chunks_exact(2) {
+            let apart = (pair[0].s.im - pair[1].s.im).abs() / pair[1].s.im;
+            assert!(apart < 0.03, "{seed}: {} {}", pair[0].s, pair[1].s);
+        }
+    }
+}
+
+/// Equations that rounding makes singular at an eigenvalue, and beside it the more the slower it is: stretching that nothing else shares,
+/// free shafts that turn slowly. From a thousandth to a thousand of the speed there is an answer.
+#[test]
+fn singular_equations_have_answers() {
+    let held = |stiffness: f64| {
+        format!(
+            "point a: rotor at root; point b: rotor at tip; point seat_a: ground; point seat_b: ground at [650, 0, 0] mm;
+            force left: bushing(from: seat_a, to: a, stiffness: {stiffness} * [1, 1, 2] MN/m);
+            force right: bushing(from: seat_b, to: b, stiffness: {stiffness} * [0, 1, 2] MN/m);"
+        )
+    };
+    let free = "body disk: rigid(mass: 5 kg, inertia: [0.03, 0.02, 0.02] kg*m^2);
+        joint turns: revolute(x) from rotor at station 1 to disk, driven at omega;"
+        .to_owned();
+    for (lines, around) in [
+        ("[bending, stretch]", held(1.0)),
+        ("[bending, stretch]", held(1e-4)),
+        ("[bending, torsion, stretch]", held(30.0)),
+        ("bending", free),
+    ] {
+        let study = Study::new(machine(&format!(
+            "mechanism Singular {{ input omega: rad/s;
+                material steel: density 7850 kg/m^3, modulus 205 GPa, poisson 0.29;
+                body rotor: shaft(along: x, up: z, material: steel, lines: {lines},
+                    sections: [[250 mm, 60 mm], [200 mm, 70 mm], [200 mm, 60 mm]]) spinning at omega;
+                {around} }}"
+        )));
+        for speed in [0.0, 0.001, 0.1, 1.0, 10.0, 100.0, 1000.0] {
+            let modes = study.clone().input(Input::new(0), speed).modes();
+            let modes = modes.unwrap_or_else(|error| panic!("{lines} {speed}: {error}")).modes;
+            assert_eq!(modes.len(), 12, "{lines} {speed}");
+        }
+    }
+}
+
 /// What lags has motions that die away at once, infinitely many: they do not hide the others, nor the speed from which one grows.
 #[test]
 fn motions_that_die_away_at_once_hide_none() {
