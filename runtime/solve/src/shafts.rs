@@ -161,8 +161,12 @@ pub struct ShaftSlopes {
 
 impl ShaftSlopes {
     #[doc(hidden)]
-    pub fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<Option<Self>, Error> {
-        Ok(Shafts::of(at)?.map(|shafts| Self { shafts, slopes: number_slopes(mechanism, at) }))
+    pub fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<Option<Box<Self>>, Error> {
+        if at.description.spans.is_empty() {
+            return Ok(None);
+        }
+        let with_slopes = |shafts| Box::new(Self { shafts, slopes: number_slopes(mechanism, at) });
+        Ok(Shafts::of(at)?.map(with_slopes))
     }
 
     /// Adds the derivatives of `left^T T(s) right` by each input and then each design variable, at fixed compiled matrices.

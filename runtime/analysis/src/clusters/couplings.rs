@@ -217,13 +217,13 @@ fn of_family<'a>(family: Family, members: &'a [&'a Mode]) -> &'a [&'a Mode] {
 struct General<'a> {
     members: &'a [&'a Mode],
     normalisers: Vec<Complex>,
-    shafts: Option<(ShaftSlopes, Vec<Vector<Complex>>)>,
+    shafts: Option<(Box<ShaftSlopes>, Vec<Vector<Complex>>)>,
 }
 
 impl<'a> General<'a> {
     fn new(mechanism: &dyn Kernels, at: &Equilibrium, members: &'a [&'a Mode]) -> Result<Self, Error> {
         let shafts = ShaftSlopes::of(mechanism, at)?;
-        let normalisers = members.iter().map(|a| normaliser(at, shafts.as_ref(), a)).collect();
+        let normalisers = members.iter().map(|a| normaliser(at, shafts.as_deref(), a)).collect();
         let shafts = shafts.map(|shafts| {
             let between = shafts.between(members);
             (shafts, between)

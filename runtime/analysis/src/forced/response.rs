@@ -109,7 +109,7 @@ pub(super) struct Solved<'a> {
     /// Whether each output has a derivative.
     pub(super) smooth: Vec<bool>,
     pub(super) vibrations: Vec<Vibration>,
-    pub(super) shafts: Option<ShaftSlopes>,
+    pub(super) shafts: Option<Box<ShaftSlopes>>,
 }
 
 /// A harmonic and the factors of its dynamic stiffness.

@@ -32,14 +32,15 @@ pub(crate) fn follow(
     let mut workspace = (tracker.side_by_side()).then(|| tracker.workspace(&mut memory, with_slopes));
     let mut adjoint = with_slopes.then(|| Adjoint::new(tracker.mechanism, tracker.family()));
     let mut slopes = None;
-    // Number of values to solve one by one before the next block; three define a path.
-    let mut alone = 3;
+    // Number of values to solve one by one before the next block.
+    let mut alone = 1;
     while let Some((&value, behind)) = rest.split_first() {
         if let Some(workspace) = &mut workspace
             && alone == 0
             && !behind.is_empty()
             && !tracker.is_unchanged()
         {
+            let begins = tracker.begins();
             let number = tracker.solve_block(kernels, workspace, rest);
             let block = &workspace.block;
             if show(tracker, block, number, slopes.as_mut(), &mut each).is_break() {
@@ -47,15 +48,16 @@ pub(crate) fn follow(
             }
             tracker.commit(block, number);
             rest = &rest[number..];
-            // Where the path bends too much for a whole block, it will do so a little farther on as well.
-            alone = WIDTH - number;
+            // Three states define a path. Where it bends too much for a whole block, it will do so a little farther on as
+            // well.
+            alone = if begins && number == 0 { 2 } else { WIDTH - number };
             continue;
         }
         alone = alone.saturating_sub(1);
         let failed = tracker.advance(value);
         if let Some(point) = failed.as_ref().or(tracker.last.as_deref()) {
             if let Some(adjoint) = &mut adjoint {
-                slopes = Some(slopes_at(point, adjoint, slopes.take()));
+                set_slopes(point, adjoint, &mut slopes);
             }
             let shown = each(Station { point, slopes: slopes.as_ref() });
             if shown.is_break() {
@@ -66,16 +68,20 @@ pub(crate) fn follow(
     }
 }
 
-/// The derivatives at a point, reusing the buffers of earlier ones if available.
-fn slopes_at(
-    point: &SweepPoint,
-    adjoint: &mut Adjoint<'_>,
-    over: Option<Result<Sensitivities, Error>>,
-) -> Result<Sensitivities, Error> {
-    let (state, modes) = point.solved().map_err(Error::clone)?;
-    let mut slopes = over.and_then(Result::ok).unwrap_or_else(|| Sensitivities::blank(state, modes, Method::Adjoint));
-    adjoint.sensitivities_into(state, modes, &mut slopes)?;
-    Ok(slopes)
+/// Overwrites derivatives with those at a point.
+fn set_slopes(point: &SweepPoint, adjoint: &mut Adjoint<'_>, slopes: &mut Option<Result<Sensitivities, Error>>) {
+    let set = point.solved().map_err(Error::clone).and_then(|(state, modes)| {
+        if !matches!(slopes, Some(Ok(_))) {
+            *slopes = Some(Ok(Sensitivities::blank(state, modes, Method::Adjoint)));
+        }
+        match slopes {
+            Some(Ok(slopes)) => adjoint.sensitivities_into(state, modes, slopes),
+            _ => Ok(()),
+        }
+    });
+    if let Err(error) = set {
+        *slopes = Some(Err(error));
+    }
 }
 
 /// Passes the first states of a block to `each`, each overwriting the one before.

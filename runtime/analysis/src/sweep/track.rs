@@ -8,11 +8,13 @@
 
 use super::points::SweepPoint;
 use super::search::Route;
-use crate::algebra::Vector;
+use crate::algebra::{Cholesky, Vector, largest};
 use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
-use crate::modes::{CLUSTER_GAP, Family, Followed, holds, match_with_assurance, merged, near_another, position};
+use crate::modes::{
+    CLUSTER_GAP, Family, Followed, holds, least_in_place, match_with_assurance, merged, near_another, position,
+};
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;
 use crate::{Description, Equilibrium, Error, Input, Mode, Modes, Shared, Stability};
@@ -208,39 +210,69 @@ impl<'a> Tracker<'a> {
         Workspace::new(memory, self.mechanism, values, with_slopes)
     }
 
+    /// Whether the path has too few states to show where it leads.
+    pub(super) fn begins(&self) -> bool {
+        !self.path.bends()
+    }
+
+    /// Lays the path behind a first state along its tangent, as far apart as the next value is from it. Where the state does
+    /// not move with the input, its tangent says nothing.
+    fn begin(&mut self, next: f64) -> Option<()> {
+        let last = self.last.as_ref()?;
+        let (state, _) = last.solved().ok()?;
+        let (by_input, _) = self.mechanism.residual_partials(&state.coordinates, &state.inputs, &state.design);
+        let load = by_input.column(self.input.index());
+        if largest(&load) == 0.0 {
+            return None;
+        }
+        let slope = Cholesky::new(&state.linear.stiffness).ok()?.solve(&load);
+        for ago in [2.0, 1.0, 0.0] {
+            let back = ago * (next - last.value);
+            // `Khat dq = -dg`.
+            let before = state.coordinates.iter().zip(&slope).map(|(q, slope)| q + back * slope);
+            self.path.go(last.value - back, before);
+        }
+        Some(())
+    }
+
     /// Solves the first of `values` as one block where the path so far is smooth. Returns how many of them, counted
     /// from the first, agree with a one-by-one solution.
     pub(super) fn solve_block(
-        &self,
+        &mut self,
         kernels: &dyn BatchKernels,
         workspace: &mut Workspace<'_>,
         values: &[f64],
     ) -> usize {
-        let (Some(vectors), Some(last), Some(past)) = (self.vectors, &self.last, self.path.last_three()) else {
+        if self.begins() && self.begin(values[0]).is_none() {
+            return 0;
+        }
+        let (Some(vectors), Some(last)) = (self.vectors, &self.last) else {
             return 0;
         };
         let sound = |(state, modes): &(&Equilibrium, &Modes)| {
             state.stability == Stability::Stable
                 && state.far_from_least_pose()
                 && modes.modes.len() == self.from.len()
-                && last.value == past[0].0
+                && self.path.values().first() == Some(&last.value)
         };
         let Some((_, modes)) = last.solved().ok().filter(sound) else {
             return 0;
         };
-        let mut inputs = self.inputs.clone();
-        let possible = |value: &&f64| {
-            inputs[self.input.index()] = **value;
-            self.mechanism.violation(&inputs, &self.design).is_none()
-        };
-        let number = values.iter().take(WIDTH).take_while(possible).count();
+        let (mut inputs, mut number) = (self.inputs.clone(), 0);
+        for value in values.iter().take(WIDTH) {
+            inputs[self.input.index()] = *value;
+            if self.mechanism.violation(&inputs, &self.design).is_some() {
+                break;
+            }
+            number += 1;
+        }
         let values = (self.input, &values[..number]);
-        workspace.solve((kernels, vectors), values, &past, &modes.real_shapes())
+        workspace.solve((kernels, vectors), values, &self.path, &modes.real_shapes())
     }
 
     /// Extends the path to the last of the first `number` states of a block, which already is the last point.
     pub(super) fn commit(&mut self, block: &Block<'_>, number: usize) {
-        for lane in number.saturating_sub(3)..number {
+        for lane in number.saturating_sub(5)..number {
             let state = block.state_of(lane);
             self.path.go(block.values.0[lane], state.clone());
             self.from.assign(state);
@@ -378,23 +410,25 @@ impl<'a> Tracker<'a> {
             self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));
         }
-        if let Some(last) = &self.last
-            && let Ok(modes) = &last.modes
-        {
-            let order = match_with_assurance(modes, point_modes, &state.linear);
-            // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
-            let repeated = |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
-            let doubtful =
-                order.iter().flatten().any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
-            if doubtful
-                && halvings > 0
-                && let Some(middle) = self.middle(value)
-            {
-                self.spare = Some(point);
-                return Ok(Step::TooFar(middle));
+        if let Some(Ok(modes)) = self.last.as_ref().map(|last| &last.modes) {
+            if least_in_place(modes, point_modes, &state.linear) >= RECOGNISED {
+                point_modes.continue_in_place(modes);
+            } else {
+                let order = match_with_assurance(modes, point_modes, &state.linear);
+                // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
+                let repeated = |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
+                let doubtful =
+                    order.iter().flatten().any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
+                if doubtful
+                    && halvings > 0
+                    && let Some(middle) = self.middle(value)
+                {
+                    self.spare = Some(point);
+                    return Ok(Step::TooFar(middle));
+                }
+                let order = order.map(position);
+                point_modes.arrange(modes, &order, self.unused);
             }
-            let order = order.map(position);
-            point_modes.arrange(modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);
         self.path.go(value, state.coordinates.iter().copied());

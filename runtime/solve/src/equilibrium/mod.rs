@@ -36,7 +36,7 @@ pub use finish::SolvedState;
 #[doc(hidden)]
 pub use operating_point::{Failure, OperatingPoint};
 #[doc(hidden)]
-pub use prediction::{MISSED, Passed, Path, STILL, confirmed};
+pub use prediction::{MISSED, Path, STILL, confirmed};
 #[doc(hidden)]
 pub use regularity::constraint_state;
 #[doc(hidden)]

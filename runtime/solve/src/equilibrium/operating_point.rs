@@ -114,6 +114,9 @@ impl<'a> OperatingPoint<'a> {
     #[doc(hidden)]
     #[inline]
     pub fn held_by(self, held: &[Held]) -> Self {
+        if held.is_empty() && self.description.held.is_empty() {
+            return self;
+        }
         let held = self.at_declared_values(held);
         self.asked(&[], held)
     }

@@ -1,6 +1,6 @@
 //! Predicts where an equilibrium moves along an input, from the last states of the path.
 
-use crate::algebra::{Vector, all_finite, greater, largest};
+use crate::algebra::{Vector, all_finite, dot, greater, largest};
 
 /// Share of the distance by which a prediction may miss.
 pub const MISSED: f64 = 0.25;
@@ -9,17 +9,20 @@ pub const STILL: f64 = 1e-9;
 /// Last steps beyond which a parabola through them is no prediction.
 const FAR: f64 = 8.0;
 
-/// A value of the input and the state there.
-pub type Passed<'a> = (f64, &'a [f64]);
+/// Most states that a prediction takes.
+const MOST: usize = 5;
+/// Share of the term before it that a term of third or fourth degree may reach: beyond, the states do not tell it.
+const SHRINKS: f64 = 0.5;
 
-/// The last states of the path, at most three.
+/// The last states of the path, at most five: the polynomial through them in Newton's form,
+/// `t0 + (u - u0) (t1 + (u - u1) (t2 + ..))`.
 #[derive(Clone, Debug, Default)]
 #[doc(hidden)]
 pub struct Path {
-    /// In a ring.
-    states: [(f64, Vector); 3],
-    /// Position of the latest.
-    latest: usize,
+    /// Values of the input, the latest first.
+    values: [f64; MOST],
+    /// For each coordinate the divided differences, the first of which is the latest state.
+    terms: Vec<[f64; MOST]>,
     count: usize,
 }
 
@@ -27,50 +30,89 @@ impl Path {
     /// Moves on to the state at another value of the input.
     #[doc(hidden)]
     pub fn go(&mut self, value: f64, q: impl ExactSizeIterator<Item = f64>) {
-        self.latest = (self.latest + 1) % 3;
-        let (last, state) = &mut self.states[self.latest];
-        *last = value;
-        state.assign(q);
-        self.count = (self.count + 1).min(3);
+        self.terms.resize(q.len(), [0.0; MOST]);
+        let mut per_step = [0.0; MOST];
+        for (per_step, other) in per_step.iter_mut().zip(&self.values[..self.count]) {
+            *per_step = 1.0 / (value - other);
+        }
+        for (terms, q) in self.terms.iter_mut().zip(q) {
+            let mut new = q;
+            for (term, per_step) in terms.iter_mut().zip(per_step) {
+                let old = core::mem::replace(term, new);
+                new = (new - old) * per_step;
+            }
+        }
+        self.values.copy_within(..MOST - 1, 1);
+        self.values[0] = value;
+        self.count = (self.count + 1).min(MOST);
     }
 
-    /// The last three states, the latest first; `None` if there are fewer.
+    /// Whether it has the three states that show how a path bends.
     #[doc(hidden)]
-    pub fn last_three(&self) -> Option<[Passed<'_>; 3]> {
-        (self.count == 3).then(|| self.latest_first())
+    #[inline]
+    pub fn bends(&self) -> bool {
+        self.count > 2
     }
 
-    fn latest_first(&self) -> [Passed<'_>; 3] {
-        [0, 2, 1].map(|ahead| {
-            let (value, state) = &self.states[(self.latest + ahead) % 3];
-            (*value, &state[..])
-        })
+    /// The values of the input, the latest first.
+    #[doc(hidden)]
+    #[inline]
+    pub fn values(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+
+    /// What coordinate `i` was a number of states ago.
+    #[doc(hidden)]
+    #[inline]
+    pub fn state(&self, ago: usize, i: usize) -> f64 {
+        let reach = self.reach(self.values[ago]);
+        dot(&self.terms[i][..=ago], &reach[..=ago])
     }
 
     /// Whether a value of the input is too far beyond the last states for them to tell the state there.
     #[doc(hidden)]
     pub fn is_far(&self, value: f64) -> bool {
-        let [(u0, _), (u1, _), _] = self.latest_first();
+        let [u0, u1, ..] = self.values;
         self.count > 1 && (value - u0).abs() > FAR * (u0 - u1).abs()
     }
 
-    /// Extrapolates the state to a value of the input, by a parabola or straight line through the last states. `None`
-    /// if there are fewer than two states, if the value is [far](Self::is_far), or if values of the input repeat.
+    /// `1, u - u0, (u - u0) (u - u1), ..` at a value of the input.
+    #[doc(hidden)]
+    #[inline]
+    pub fn reach(&self, value: f64) -> [f64; MOST] {
+        let mut reach = [1.0; MOST];
+        for k in 1..MOST {
+            reach[k] = reach[k - 1] * (value - self.values[k - 1]);
+        }
+        reach
+    }
+
+    /// The terms of coordinate `i`: a parabola, or a straight line through two states, and terms of higher degree as long as
+    /// they shrink over this reach; zeros beyond.
+    #[doc(hidden)]
+    #[inline]
+    pub fn terms(&self, i: usize, reach: &[f64; MOST]) -> [f64; MOST] {
+        let mut terms = self.terms[i];
+        let mut most = f64::INFINITY;
+        for k in 2..MOST {
+            let size = (terms[k] * reach[k]).abs();
+            if !(size < most) {
+                terms[k] = 0.0;
+            }
+            most = if size < most { SHRINKS * size } else { 0.0 };
+        }
+        terms
+    }
+
+    /// Extrapolates the state to a value of the input. `None` if there are fewer than two states, if the value is
+    /// [far](Self::is_far), or if values of the input repeat.
     #[doc(hidden)]
     pub fn at(&self, value: f64) -> Option<Vector> {
-        let [(u0, q0), (u1, q1), (u2, q2)] = self.latest_first();
         if self.count < 2 || self.is_far(value) {
             return None;
         }
-        let (first, second) = ((value - u0) / (u0 - u1), (value - u1) / (u0 - u2));
-        let curved = self.count == 3 && second.is_finite();
-        let q2 = if curved { q2 } else { q1 };
-        let bend = if curved { first * second } else { 0.0 };
-        let ratio = if curved { (u0 - u1) / (u1 - u2) } else { 0.0 };
-        let predicted = Vector::from_fn(q0.len(), |i| {
-            let slope = q0[i] - q1[i];
-            q0[i] + first * slope + bend * (slope - ratio * (q1[i] - q2[i]))
-        });
+        let reach = self.reach(value);
+        let predicted = Vector::from_fn(self.terms.len(), |i| dot(&self.terms(i, &reach), &reach));
         all_finite(&predicted).then_some(predicted)
     }
 }
@@ -105,19 +147,29 @@ mod tests {
     }
 
     #[test]
-    fn the_last_three_states_come_latest_first() {
+    fn higher_terms_count_as_long_as_they_shrink() {
+        let ends = |state: fn(f64) -> f64, to: f64| {
+            let mut path = Path::default();
+            [0.0, 0.1, 0.2, 0.3, 0.4].map(|u| path.go(u, [state(u)].into_iter()));
+            path.at(to).map_or(f64::NAN, |predicted| predicted[0])
+        };
+        let quartic = |u: f64| 1.0 + u + u * u - 2.0 * u.powi(3) + 0.5 * u.powi(4);
+        assert!((ends(quartic, 0.6) - quartic(0.6)).abs() < 1e-13);
+        // Rounding beside a parabola, magnified by the distance, would lead away from it.
+        let rough = |u: f64| u * u + if u == 0.2 { 0.01 } else { 0.0 };
+        assert!((ends(rough, 1.6) - 1.6 * 1.6).abs() < 1.0);
+    }
+
+    #[test]
+    fn the_last_states_come_latest_first() {
         let mut path = Path::default();
-        for k in 0..7 {
+        for k in 0..9 {
             let value = f64::from(k);
             path.go(value, [-value].into_iter());
-            let last = path.last_three();
-            if k < 2 {
-                assert_eq!(last, None);
-            } else {
-                let passed = [0.0, 1.0, 2.0].map(|ago| value - ago);
-                let states = passed.map(|value| [-value]);
-                assert_eq!(last, Some([0, 1, 2].map(|i| (passed[i], &states[i][..]))));
-            }
+            assert_eq!(path.bends(), k > 1);
+            let expected: Vec<f64> = (0..=k).rev().take(MOST).map(f64::from).collect();
+            assert_eq!(path.values(), expected);
+            assert!((0..expected.len()).all(|ago| path.state(ago, 0) == -expected[ago]));
             // Two states give a straight line.
             if k == 1 {
                 assert_eq!(path.at(3.0), Some(Vector::from([-3.0])));

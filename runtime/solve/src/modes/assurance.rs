@@ -53,6 +53,17 @@ fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
     phase * (1.0 - EIGENVALUE_SHARE * distance)
 }
 
+/// The least assurance of undamped modes that keep their places; zero where they do not or are not undamped.
+#[must_use]
+pub fn least_in_place(from: &Modes, to: &Modes, linear: &Linear) -> f64 {
+    let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
+    if !undamped || from.modes.len() != to.modes.len() {
+        return 0.0;
+    }
+    let assurances = from.modes.iter().zip(&to.modes).map(|(x, y)| real_assurance(x, y, &linear.mass));
+    assurances.fold(1.0, |least, same| if same < least { same } else { least })
+}
+
 /// The assurance of two undamped modes.
 fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
     let (x, y, mass) = (&from.shape[..], &to.shape[..], mass.as_flattened());
@@ -136,6 +147,14 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
 }
 
 impl Modes {
+    /// Gives these modes the labels of the modes of `before` in the same places.
+    #[doc(hidden)]
+    pub fn continue_in_place(&mut self, before: &Self) {
+        for (mode, before) in self.modes.iter_mut().zip(&before.modes) {
+            mode.label = before.label;
+        }
+    }
+
     /// Gives these modes the order and the labels of the modes of `before` that they continue, at the positions `order`.
     ///
     /// Modes without a predecessor come last, labelled from `next` on.
@@ -143,9 +162,7 @@ impl Modes {
     pub fn arrange(&mut self, before: &Self, order: &[Option<usize>], mut next: usize) {
         let in_place = |(i, index): (usize, &Option<usize>)| *index == Some(i);
         if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {
-            for (mode, before) in self.modes.iter_mut().zip(&before.modes) {
-                mode.label = before.label;
-            }
+            self.continue_in_place(before);
             return;
         }
         let continued =

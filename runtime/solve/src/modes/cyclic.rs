@@ -89,16 +89,19 @@ pub(super) fn roots(
 }
 
 /// The undamped modes, block by block; `None` if there are no blocks.
-pub(super) fn pairs(linear: &Linear, description: &Description) -> Option<Result<Pairs, EigenproblemError>> {
+pub(super) fn pairs_into(
+    linear: &Linear,
+    description: &Description,
+    pairs: &mut Pairs,
+) -> Option<Result<(), EigenproblemError>> {
     let cyclic = Cyclic::new(linear, description)?;
     let n = linear.mass.row_count();
     let mut all: Vec<(f64, f64, f64, Vector)> = Vec::new();
     for block in &cyclic.blocks {
         let part = cyclic.part(block);
-        let pairs = match symmetric::solve(&part.stiffness, &part.mass) {
-            Ok(pairs) => pairs,
-            Err(error) => return Some(Err(error)),
-        };
+        if let Err(error) = symmetric::solve_into(&part.stiffness, &part.mass, pairs) {
+            return Some(Err(error));
+        }
         for r in 0..pairs.lambda.len() {
             let shape: Vec<Complex> = pairs.shapes[r].iter().copied().map(Complex::from).collect();
             let mut shape = expanded(n, block, &shape, &cyclic.patterns).map(|value| value.re);
@@ -107,12 +110,13 @@ pub(super) fn pairs(linear: &Linear, description: &Description) -> Option<Result
         }
     }
     let all = ascending(all, |pair| pair.0);
-    Some(Ok(Pairs {
+    *pairs = Pairs {
         lambda: all.iter().map(|pair| pair.0).collect(),
         errors: all.iter().map(|pair| pair.1).collect(),
         residuals: all.iter().map(|pair| pair.2).collect(),
         shapes: Matrix::from_fn(n, n, |r, i| all[r].3[i]),
-    }))
+    };
+    Some(Ok(()))
 }
 
 /// The orthogonal patterns of `n` instances: row `i` belongs to an instance.

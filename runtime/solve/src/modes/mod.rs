@@ -26,7 +26,8 @@ mod whirl;
 
 #[doc(hidden)]
 pub use assurance::{
-    EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position,
+    EIGENVALUE_SHARE, equal_groups, in_order, least_in_place, match_with_assurance, merged, near, near_another,
+    position,
 };
 pub use assurance::{assurance, clusters, match_modes};
 pub use blades::{BladePattern, Travel, ring_speeds};
@@ -386,14 +387,10 @@ fn solve_undamped(
         }
     }
     let alone = Structure::of(description).open() && description.free_directions == 0;
-    let pairs = match if alone { cyclic::pairs(linear, description) } else { None } {
-        Some(pairs) => pairs,
-        None => {
-            let mut pairs = Pairs::default();
-            constrained::free_pairs_into(linear, description, &mut pairs).map(|()| pairs)
-        }
-    };
-    let pairs = pairs.map_err(ModesFailure::Pencil)?;
+    let mut pairs = Pairs::default();
+    let cyclic = if alone { cyclic::pairs_into(linear, description, &mut pairs) } else { None };
+    let solved = cyclic.unwrap_or_else(|| constrained::free_pairs_into(linear, description, &mut pairs));
+    solved.map_err(ModesFailure::Pencil)?;
     let count = pairs.lambda.len();
     modes.reserve_exact(count.saturating_sub(modes.len()));
     modes.resize_with(count, Mode::blank);

@@ -223,11 +223,10 @@ impl Mode {
         }
     }
 
-    /// Overwrites this mode with an undamped mode given by its eigenvalue and error, reusing the vectors. Returns the
-    /// place into which the caller writes the shape, of `n` components.
+    /// Overwrites this mode with an undamped mode given by its eigenvalue and the error of that, reusing the vectors. Returns
+    /// the place into which the caller writes the shape, of `n` components.
     #[inline(always)]
-    #[doc(hidden)]
-    pub fn make_undamped(
+    pub(super) fn make_undamped(
         &mut self,
         label: usize,
         (lambda, error): (f64, f64),
@@ -235,19 +234,29 @@ impl Mode {
         n: usize,
     ) -> &mut [Complex] {
         let rate = lambda.abs().sqrt();
-        (self.s, self.behaviour) = match sign(lambda, error) {
-            Sign::Positive => (Complex::new(0.0, rate), Behaviour::Oscillating(rate)),
-            Sign::Negative => (Complex::new(rate, 0.0), Behaviour::Divergent(rate)),
-            Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
-        };
+        // `sqrt(error)`, or `error / rate` if that is smaller.
+        let of_s = if rate * rate > error { error / rate } else { error.sqrt() };
+        self.set_oscillating(label, lambda, rate, residual, of_s);
+        match sign(lambda, error) {
+            Sign::Positive => {}
+            Sign::Negative => (self.s, self.behaviour) = (Complex::new(rate, 0.0), Behaviour::Divergent(rate)),
+            Sign::Zero => (self.s, self.behaviour) = (Complex::ZERO, Behaviour::Neutral),
+        }
+        self.shape.make_room(n)
+    }
+
+    /// Overwrites everything but the shape with an undamped mode that oscillates at `rate`, with the error of `s`.
+    #[inline(always)]
+    #[doc(hidden)]
+    pub fn set_oscillating(&mut self, label: usize, lambda: f64, rate: f64, residual: f64, error: f64) {
+        self.s = Complex::new(0.0, rate);
+        self.behaviour = Behaviour::Oscillating(rate);
         self.lambda = lambda;
         self.left.make_room(0);
         self.residual = residual;
-        // `sqrt(error)`, or `error / rate` if that is smaller.
-        self.error = if rate * rate > error { error / rate } else { error.sqrt() };
+        self.error = error;
         self.condition = 1.0;
         self.label = label;
-        self.shape.make_room(n)
     }
 
     /// Real part of the shape, which is all of it for an undamped mode.

@@ -4,7 +4,7 @@
 //! same holds with `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both cases
 //! `Khat^T w = da/dq`.
 
-use super::gradients::{Source, changes, of_general, rate};
+use super::gradients::{Form, Source, of_general};
 use super::pencil::{BilinearForm, ComplexGradient, form_gradient};
 use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, free_directions, redundancy};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
@@ -32,6 +32,7 @@ pub struct Adjoint<'a> {
     /// Explicit partials, if gradients are computed from them; sized for no variables otherwise.
     matrices: PartialMatrices,
     residual: ResidualPartials,
+    factors: Factors,
 }
 
 impl<'a> Adjoint<'a> {
@@ -45,6 +46,7 @@ impl<'a> Adjoint<'a> {
             source,
             matrices: PartialMatrices::zeros(where_used(source == Source::Partials)),
             residual: residual_partials_zeros(where_used(source != Source::Reverse)),
+            factors: Factors::default(),
         }
     }
 
@@ -56,11 +58,11 @@ impl<'a> Adjoint<'a> {
         modes: &Modes,
         sensitivities: &mut Sensitivities,
     ) -> Result<(), Error> {
-        let Self { mechanism, source, matrices, residual } = self;
+        let Self { mechanism, source, matrices, residual, factors } = self;
         check_state(*mechanism, at)?;
         redundancy::check(*mechanism, at)?;
         free_directions::check(*mechanism, at)?;
-        let factors = Factors::new(at)?;
+        factors.factor(at)?;
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let (matrices, residual) = match source {
             Source::Partials => {
@@ -77,7 +79,7 @@ impl<'a> Adjoint<'a> {
         };
         let sizes = mechanism.sizes();
         let shafts = ShaftSlopes::of(*mechanism, at)?;
-        let shared = AdjointContext { mechanism: *mechanism, at, factors: &factors, residual, shafts };
+        let shared = AdjointContext { mechanism: *mechanism, at, factors, residual, shafts };
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some(residual)) => {
                 assemble_into(at, modes, sensitivities, |sensitivity, mode| {
@@ -108,7 +110,7 @@ struct AdjointContext<'a> {
     factors: &'a Factors,
     /// Explicit partials of the residual, if its gradients are computed from them.
     residual: Option<&'a ResidualPartials>,
-    shafts: Option<ShaftSlopes>,
+    shafts: Option<Box<ShaftSlopes>>,
 }
 
 impl AdjointContext<'_> {
@@ -126,18 +128,15 @@ impl AdjointContext<'_> {
             mode.shape.len(),
             #[inline(always)]
             |n| {
-                let (mut phi, mut w) = (Vector::zeros(n), Vector::zeros(n));
-                let (phi, w) = (&mut phi[..n], &mut w[..n]);
-                for (phi, value) in phi.iter_mut().zip(&mode.shape[..n]) {
-                    *phi = value.re;
-                }
-                for (w, change) in w.iter_mut().zip(changes(n, matrices.by_coordinate())) {
-                    *w = rate(n, change, phi, mode.lambda, symmetric);
+                let (mut weights, mut w) = (Matrix::zeros(n, n), Vector::zeros(n));
+                let (weights, w) = (&mut weights.as_flattened_mut()[..n * n], &mut w[..n]);
+                let form = Form::new(n, &mode.shape[..n], mode.lambda, symmetric, weights);
+                for (w, change) in w.iter_mut().zip(form.changes(matrices.by_coordinate())) {
+                    *w = form.rate(change);
                 }
                 self.factors.solve(n, w);
-                let form = (&*phi, mode.lambda, symmetric);
-                total_rates(n, form, matrices.by_input(), (w, by_input), inputs);
-                total_rates(n, form, matrices.by_design(), (w, by_design), design);
+                total_rates(&form, matrices.by_input(), (w, by_input), inputs);
+                total_rates(&form, matrices.by_design(), (w, by_design), design);
             },
         );
     }
@@ -187,7 +186,7 @@ impl AdjointContext<'_> {
                 (*re, *im) = (*re + slope.re, *im + slope.im);
             });
         }
-        let scale = -normaliser(self.at, self.shafts.as_ref(), mode);
+        let scale = -normaliser(self.at, self.shafts.as_deref(), mode);
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
         let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
         let by_design = re.design.iter().zip(&im.design).map(slope);
@@ -216,28 +215,28 @@ impl AdjointContext<'_> {
 }
 
 /// Factors of the transposed `Khat`.
-enum Factors {
-    Definite(Cholesky),
-    General(Lu<f64>),
+#[derive(Default)]
+struct Factors {
+    definite: Cholesky,
+    /// Where it is not positive definite.
+    general: Option<Lu<f64>>,
 }
 
 impl Factors {
-    fn new(at: &Equilibrium) -> Result<Self, Error> {
+    /// Overwrites the factors with those at a state.
+    fn factor(&mut self, at: &Equilibrium) -> Result<(), Error> {
         let stiffness = &*at.held_stiffness();
-        if at.description.symmetric_stiffness
-            && let Ok(factors) = Cholesky::new(stiffness)
-        {
-            return Ok(Self::Definite(factors));
-        }
-        Lu::of(stiffness.transpose()).map(Self::General).ok_or(Error::CriticalState)
+        let definite = at.description.symmetric_stiffness && self.definite.factor(stiffness).is_ok();
+        self.general = if definite { None } else { Some(Lu::of(stiffness.transpose()).ok_or(Error::CriticalState)?) };
+        Ok(())
     }
 
     /// Solves in place for a right-hand side of `n` numbers; see [`for_size`].
     #[inline(always)]
     fn solve(&self, n: usize, x: &mut [f64]) {
-        match self {
-            Self::Definite(factors) => factors.solve_of(n, x),
-            Self::General(factors) => x.copy_from_slice(&factors.solve(x)),
+        match &self.general {
+            None => self.definite.solve_of(n, x),
+            Some(factors) => x.copy_from_slice(&factors.solve(x)),
         }
     }
 }
@@ -245,24 +244,12 @@ impl Factors {
 /// `phi^T (dKhat - lambda dMhat) phi - w^T dg` for several variables, from the derivatives of matrices and residual
 /// with respect to them.
 #[inline(always)]
-fn total_rates(
-    n: usize,
-    (phi, lambda, symmetric): (&[f64], f64, bool),
-    matrices: &[f64],
-    (w, residual): (&[f64], &Matrix),
-    to: &mut [f64],
-) {
-    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
-        let direct = rate(n, change, phi, lambda, symmetric);
-        *to = direct - column_times(n, w, residual, k);
+fn total_rates(form: &Form<'_>, matrices: &[f64], (w, residual): (&[f64], &Matrix), to: &mut [f64]) {
+    let (columns, entries) = (residual.column_count(), residual.as_flattened());
+    for (k, (to, change)) in to.iter_mut().zip(form.changes(matrices)).enumerate() {
+        let shift = (0..w.len()).fold(0.0, |sum, i| sum + w[i] * entries[i * columns + k]);
+        *to = form.rate(change) - shift;
     }
-}
-
-/// `w^T partials` in column `k`; `partials` has `n` rows.
-#[inline(always)]
-fn column_times(n: usize, w: &[f64], partials: &Matrix, k: usize) -> f64 {
-    let (columns, entries) = (partials.column_count(), partials.as_flattened());
-    (0..n).fold(0.0, |sum, i| sum + w[i] * entries[i * columns + k])
 }
 
 /// `sum = w^T partials`.

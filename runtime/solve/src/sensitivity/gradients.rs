@@ -58,25 +58,58 @@ fn pays(modes: usize, (shared, use_of_it): (Option<usize>, usize), (separate, ca
 
 /// The changes of matrices of size `n` with each variable, one after the other.
 #[inline(always)]
-pub(crate) fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
+fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
     all.chunks_exact(entries_of(n).max(1))
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` for a change of matrices of size `n`, with vector and eigenvalue held fixed;
-/// `symmetric` refers to `dKhat`.
-#[inline(always)]
-pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
-    let Linear { mass, stiffness, .. } = parts(&change[..entries_of(n)]);
-    let (mut diagonal, mut mixed) = (-0.0, -0.0);
-    for i in 0..n {
-        diagonal += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
-        for j in 0..i {
-            let below = stiffness[i * n + j];
-            let stiffness = if symmetric { below } else { 0.5 * (below + stiffness[j * n + i]) };
-            mixed += phi[i] * phi[j] * (stiffness - lambda * mass[i * n + j]);
+/// `phi^T (Khat - lambda Mhat) phi` with vector and eigenvalue held fixed.
+pub(super) struct Form<'a> {
+    n: usize,
+    lambda: f64,
+    /// Whether changes of `Khat` are symmetric.
+    symmetric: bool,
+    /// `phi_i phi_j` for each element on the diagonal and both elements beside it, those below standing for both.
+    weights: &'a [f64],
+}
+
+impl<'a> Form<'a> {
+    /// Of an undamped shape; `weights` is room for `n * n` numbers.
+    #[inline(always)]
+    pub(super) fn new(n: usize, phi: &[Complex], lambda: f64, symmetric: bool, weights: &'a mut [f64]) -> Self {
+        for i in 0..n {
+            for j in 0..i {
+                weights[i * n + j] = 2.0 * phi[i].re * phi[j].re;
+            }
+            weights[i * n + i] = phi[i].re * phi[i].re;
         }
+        Self { n, lambda, symmetric, weights }
     }
-    diagonal + (mixed + mixed)
+
+    /// The changes of the matrices with each variable, one after the other.
+    #[inline(always)]
+    pub(super) fn changes<'b>(&self, all: &'b [f64]) -> impl ExactSizeIterator<Item = &'b [f64]> {
+        changes(self.n, all)
+    }
+
+    /// `phi^T (dKhat - lambda dMhat) phi` for a change of the matrices.
+    #[inline(always)]
+    pub(super) fn rate(&self, change: &[f64]) -> f64 {
+        let n = self.n;
+        let Linear { mass, stiffness, .. } = parts(&change[..entries_of(n)]);
+        let element = |i: usize, j: usize| {
+            let below = stiffness[i * n + j];
+            let stiffness = if self.symmetric { below } else { 0.5 * (below + stiffness[j * n + i]) };
+            self.weights[i * n + j] * (stiffness - self.lambda * mass[i * n + j])
+        };
+        let mut sum = -0.0;
+        for i in 0..n {
+            for j in 0..i {
+                sum += element(i, j);
+            }
+            sum += element(i, i);
+        }
+        sum
+    }
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi` from explicit partials, with vectors and eigenvalue held fixed.

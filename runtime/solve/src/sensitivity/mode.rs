@@ -247,7 +247,8 @@ impl ModeSensitivity {
     pub fn finite(&self) -> bool {
         if self.undamped && self.value != Complex::ZERO {
             let rate = root_rate(self.value);
-            return self.lambda.iter().map(|dlambda| unless_finite(rate * dlambda)).sum::<f64>() == 0.0;
+            let of = |sum, slopes: &[f64]| slopes.iter().fold(sum, |sum, slope| sum + unless_finite(rate * slope));
+            return of(of(0.0, &self.lambda.by_input), &self.lambda.by_design) == 0.0;
         }
         // For a general mode, `s` is checked through `lambda`: derivatives of `lambda` are computed from those of `s`.
         self.lambda_is_finite()

@@ -1,13 +1,14 @@
 //! Advances to the next block: predicted, solved and checked, lane by lane.
 
-use super::block::{Block, Past};
+use super::block::Block;
 use super::continuity::Continuity;
 use super::newton::newton;
 use super::room::BatchArena;
 use super::slopes::{Slopes, slopes};
 use super::state::{Scratch, state};
 use crate::Input;
-use crate::algebra::Matrix;
+use crate::algebra::{Matrix, dot};
+use crate::equilibrium::Path;
 use crate::kernels::{BatchKernels, Kernels, Sizes};
 use crate::scalar::{Batch, Instructions, WIDTH};
 
@@ -43,7 +44,7 @@ impl<'a> Workspace<'a> {
         }
     }
 
-    /// Solves the first of `values`, as many as there are lanes for, continuing from the states of `past`.
+    /// Solves the first of `values`, as many as there are lanes for, continuing a path of at least three states.
     ///
     /// `shapes` are the modes of the last state, one per row. Returns how many consecutive states passed every check;
     /// their modes have derivatives if wanted.
@@ -51,7 +52,7 @@ impl<'a> Workspace<'a> {
         &mut self,
         (kernels, instructions): (&dyn BatchKernels, Instructions),
         (input, values): (Input, &[f64]),
-        past: &Past<'_>,
+        path: &Path,
         shapes: &Matrix,
     ) -> usize {
         let Self { block, scratch, slopes: derivatives } = self;
@@ -62,9 +63,9 @@ impl<'a> Workspace<'a> {
         // Lanes without their own value repeat the last one.
         block.values = Batch::from_fn(|k| if k < number { values[k] } else { last });
         block.inputs[input.index()] = block.values;
-        block.predict(past);
+        block.predict(path);
         newton(kernels, instructions, block, scratch);
-        instructions.run(Continuity { past, block });
+        instructions.run(Continuity { path, block });
         if block.flags.0[0] == 1.0 {
             state(kernels, instructions, block, scratch, shapes);
             if let Some(derivatives) = derivatives {
@@ -76,16 +77,12 @@ impl<'a> Workspace<'a> {
 }
 
 impl Block<'_> {
-    /// Extrapolates by the parabola through the last states.
-    fn predict(&mut self, past: &Past) {
-        let [(u0, q0), (u1, q1), (u2, q2)] = past;
-        let (step, before, both) = (1.0 / (u0 - u1), 1.0 / (u1 - u2), 1.0 / (u0 - u2));
+    /// Continues a path.
+    fn predict(&mut self, path: &Path) {
+        let reach = self.values.0.map(|value| path.reach(value));
         for (i, coordinate) in self.coordinates.iter_mut().enumerate() {
-            let slope = (q0[i] - q1[i]) * step;
-            let bend = (slope - (q1[i] - q2[i]) * before) * both;
-            for (q, u) in coordinate.0.iter_mut().zip(&self.values.0) {
-                *q = q0[i] + (u - u0) * (slope + (u - u1) * bend);
-            }
+            let terms = path.terms(i, &reach[WIDTH - 1]);
+            *coordinate = Batch::from_fn(|lane| dot(&terms, &reach[lane]));
         }
     }
 }

@@ -3,16 +3,12 @@
 use super::algebra::LARGEST;
 use super::room::BatchArena;
 use crate::constraints::Structure;
-use crate::equilibrium::Passed;
 use crate::kernels::{BatchLinear, BatchPoint, Sizes};
 use crate::scalar::Batch;
 use crate::{DampingKind, Description};
 
 /// Smallest pivot of a clearly positive definite matrix, relative to its diagonal element.
 pub const POSITIVE: f64 = 1e-10;
-
-/// The last three values of the input with their states, the latest first.
-pub(crate) type Past<'a> = [Passed<'a>; 3];
 
 /// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
 /// Matrices are stored row by row.
@@ -28,9 +24,11 @@ pub struct Block<'a> {
     /// Without damping.
     pub(super) linear: BatchLinear<'a>,
     pub(super) lambda: &'a mut [Batch],
+    pub(super) rates: &'a mut [Batch],
     /// Mode by mode.
     pub(super) shapes: &'a mut [Batch],
     pub(super) mode_residuals: &'a mut [Batch],
+    /// Of `s`.
     pub(super) mode_errors: &'a mut [Batch],
     /// `dlambda`, mode by mode.
     pub(super) by_input: &'a mut [Batch],
@@ -58,7 +56,7 @@ impl<'a> Block<'a> {
     /// Number of batches that a block takes.
     pub(super) fn size(sizes: Sizes) -> usize {
         let (n, variables) = (sizes.coordinates, sizes.inputs + sizes.design);
-        variables + 5 * n + 3 * n * n + n * variables
+        variables + 6 * n + 3 * n * n + n * variables
     }
 
     /// A block for a given design and inputs, one of which will vary.
@@ -73,6 +71,7 @@ impl<'a> Block<'a> {
             relative_residual: Batch::default(),
             linear: BatchLinear { mass: room.take(n * n), damping: &mut [], stiffness: room.take(n * n) },
             lambda: room.take(n),
+            rates: room.take(n),
             shapes: room.take(n * n),
             mode_residuals: room.take(n),
             mode_errors: room.take(n),

@@ -1,14 +1,14 @@
 //! Checks that the states of a block continue the preceding path, each compared with the three states before it.
 
 use super::algebra::keep;
-use super::block::{Block, Past};
-use crate::equilibrium::{MISSED, STILL};
+use super::block::Block;
+use crate::equilibrium::{MISSED, Path, STILL};
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
 /// Keeps the flags of lanes whose state is close to the parabola through the three states before it, much closer than
 /// to the last of them: the vector form of [`confirmed`](crate::equilibrium::confirmed).
 pub(super) struct Continuity<'a, 'b> {
-    pub(super) past: &'a Past<'a>,
+    pub(super) path: &'a Path,
     pub(super) block: &'a mut Block<'b>,
 }
 
@@ -17,9 +17,9 @@ impl Task for Continuity<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { past, block } = self;
+        let Self { path, block } = self;
         let n = block.coordinates.len();
-        let values = before(&block.values, [0, 1, 2].map(|k| past[k].0));
+        let values = before(&block.values, three_of(|ago| path.values()[ago]));
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let u = V::load(&block.values, at);
             let [u0, u1, u2] = three::<V>(&values, at);
@@ -29,7 +29,7 @@ impl Task for Continuity<'_, '_> {
             let (mut missed, mut moved, mut size) = (zero, zero, one);
             for i in 0..n {
                 let q = V::load(&block.coordinates[i], at);
-                let states = before(&block.coordinates[i], [0, 1, 2].map(|k| past[k].1[i]));
+                let states = before(&block.coordinates[i], three_of(|ago| path.state(ago, i)));
                 let [q0, q1, q2] = three::<V>(&states, at);
                 let slope = (q0 - q1) * step;
                 let bend = (slope - (q1 - q2) * earlier) * both;
@@ -42,6 +42,12 @@ impl Task for Continuity<'_, '_> {
             keep(V::load(&block.flags, at), missed.at_most(allowed)).store(&mut block.flags, at);
         }
     }
+}
+
+/// What was one, two and three states ago, without a function call for each.
+#[inline(always)]
+fn three_of(of: impl Fn(usize) -> f64) -> [f64; 3] {
+    [of(0), of(1), of(2)]
 }
 
 /// The values one, two and three positions before each one of a batch; before the first, those of the past, latest

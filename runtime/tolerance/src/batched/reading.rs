@@ -12,7 +12,8 @@ impl Block<'_> {
         of(self.coordinates, lane)
     }
 
-    /// Writes the equilibrium; inputs and design are already set, and there is no damping.
+    /// Writes the equilibrium over another of the same mechanism; inputs and design are already set, and there is no
+    /// damping.
     pub fn read_state(&self, lane: usize, kernels: &dyn Kernels, state: &mut Equilibrium) {
         for_size(
             self.coordinates.len(),
@@ -30,21 +31,25 @@ impl Block<'_> {
         state.rounding = 0.0;
         state.relative_residual = self.relative_residual.0[lane];
         state.iterations = self.iterations.0[lane] as usize;
-        state.pose = kernels.pose_margin(&state.coordinates, &state.inputs, &state.design);
+        if state.pose.is_some() {
+            state.pose = kernels.pose_margin(&state.coordinates, &state.inputs, &state.design);
+        }
         state.left_unstable_region = false;
     }
 
     /// Writes the modes, keeping order and labels.
     pub fn read_modes(&self, lane: usize, modes: &mut Modes) {
+        let lane = lane % WIDTH;
         for_size(
             self.lambda.len(),
             #[inline(always)]
             |n| {
                 for (r, mode) in modes.modes.iter_mut().enumerate() {
-                    let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
-                    let residual = self.mode_residuals[r].0[lane];
+                    let (lambda, rate) = (self.lambda[r].0[lane], self.rates[r].0[lane]);
+                    let (residual, error) = (self.mode_residuals[r].0[lane], self.mode_errors[r].0[lane]);
+                    mode.set_oscillating(mode.label, lambda, rate, residual, error);
                     let from = &self.shapes[r * n..][..n];
-                    let shape = &mut mode.make_undamped(mode.label, lambda, residual, n)[..n];
+                    let shape = &mut mode.shape.make_room(n)[..n];
                     for i in 0..n {
                         shape[i] = from[i].0[lane].into();
                     }

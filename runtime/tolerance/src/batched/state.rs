@@ -86,9 +86,11 @@ impl Task for CompleteStates<'_, '_> {
                 algebra::store(n, &lambda, block.lambda, at);
                 for r in 0..n {
                     let (most, error, accurate) = mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
-                    flag = keep(flag, one.at_most(accurate));
+                    let rate = lambda[r].sqrt();
+                    flag = keep(keep(flag, one.at_most(accurate)), error.at_most(V::constant(0.5) * lambda[r]));
                     most.store(&mut block.mode_residuals[r], at);
-                    error.store(&mut block.mode_errors[r], at);
+                    rate.store(&mut block.rates[r], at);
+                    (error / rate).store(&mut block.mode_errors[r], at);
                     algebra::store(n, &vectors[r], &mut block.shapes[r * n..], at);
                 }
                 flag.store(&mut block.flags, at);

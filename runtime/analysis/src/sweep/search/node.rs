@@ -51,7 +51,7 @@ impl Question<'_> {
             Family::General => {
                 let shafts = ShaftSlopes::of(self.mechanism, state)?;
                 let along_input = (self.input, along.p);
-                general(&modes.modes, &state.linear, &change, shafts.as_ref().map(|own| (own, along_input)))
+                general(&modes.modes, &state.linear, &change, shafts.as_deref().map(|own| (own, along_input)))
             }
         };
         let stiffness = if self.stiffness { stiffness(state, &change)? } else { Vec::new() };
