@@ -1,5 +1,8 @@
 //! Spans of shafts between stations, and everything else there is at the stations.
 
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
 use eigentol_numerics::Complex;
 use eigentol_numerics::algebra::{Lu, Matrix, Vector};
 
@@ -19,6 +22,8 @@ pub struct Assembly {
     kinds: Vec<Vec<usize>>,
     /// Of the different sections of each span in each direction.
     coefficients: Vec<Vec<Vec<Coefficients>>>,
+    /// How they change, once asked for.
+    changes: OnceLock<Vec<Vec<Vec<Vec<Change>>>>>,
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
@@ -31,7 +36,19 @@ pub struct Condensed<'a> {
     assembly: &'a Assembly,
     /// 1/s.
     pub s: Complex,
-    chains: Vec<Vec<Chain>>,
+    chains: Cow<'a, [Vec<Chain>]>,
+}
+
+/// The spans at one `s`, with everything between the stations eliminated.
+#[derive(Clone, Debug)]
+pub struct Chains(Vec<Vec<Chain>>);
+
+/// How a coefficient changes with a number, or behind these with the speed.
+#[derive(Clone, Debug)]
+struct Change {
+    number: usize,
+    term: usize,
+    slope: [Complex; 3],
 }
 
 /// An assembly at one `s`, factored.
@@ -69,7 +86,7 @@ impl Assembly {
             coefficients.push(span.directions().iter().map(|&direction| of(direction)).collect());
             kinds.push(own);
         }
-        Ok(Self { spans, kinds, coefficients, mass, damping, stiffness, degree })
+        Ok(Self { spans, kinds, coefficients, changes: OnceLock::new(), mass, damping, stiffness, degree })
     }
 
     /// The number of unknowns of the stations.
@@ -161,11 +178,44 @@ impl Assembly {
     /// The assembly at one `s`, not factored: a cost that grows linearly with the sections.
     #[must_use]
     pub fn condensed(&self, s: Complex) -> Condensed<'_> {
+        Condensed { assembly: self, s, chains: self.chains(s).0.into() }
+    }
+
+    /// The same with its spans at this `s`, which are those of any assembly of these spans.
+    #[must_use]
+    pub fn condensed_with<'a>(&'a self, s: Complex, chains: &'a Chains) -> Condensed<'a> {
+        Condensed { assembly: self, s, chains: Cow::Borrowed(&chains.0) }
+    }
+
+    /// The spans at one `s`.
+    #[must_use]
+    pub fn chains(&self, s: Complex) -> Chains {
         let of_span = |(k, span): (usize, &Span)| {
             let directions = 0..span.directions().len();
             directions.map(|direction| self.chain(k, direction, s)).collect()
         };
-        Condensed { assembly: self, s, chains: self.spans.iter().enumerate().map(of_span).collect() }
+        Chains(self.spans.iter().enumerate().map(of_span).collect())
+    }
+
+    /// How the coefficients of the different sections of each span in each direction change: what is not zero.
+    fn changes(&self) -> &[Vec<Vec<Vec<Change>>>] {
+        let of_section = |span: &Span, direction: f64, section: usize| -> Vec<Change> {
+            let element = span.element(section);
+            let by_number = Number::ALL.map(|number| element.slopes(span.line, direction * span.speed, number));
+            let by_speed = element.by_speed(span.line).map(|term| term.map(|slope| slope * direction));
+            let all = by_number.into_iter().chain([by_speed]).enumerate();
+            let terms = all.flat_map(|(number, all)| {
+                all.into_iter().enumerate().map(move |(term, slope)| Change { number, term, slope })
+            });
+            terms.filter(|change| change.slope != [Complex::ZERO; 3]).collect()
+        };
+        let of_span = |(index, span): (usize, &Span)| {
+            let each = span.directions().iter().enumerate().map(|(d, &direction)| {
+                self.different(index, d).map(|(section, _)| of_section(span, direction, section)).collect()
+            });
+            each.collect()
+        };
+        self.changes.get_or_init(|| self.spans.iter().enumerate().map(of_span).collect())
     }
 
     /// The loads that a motion asks for: each coefficient times what `of` makes of it, and the matrices of the stations
@@ -213,41 +263,33 @@ impl Assembly {
         sum
     }
 
-    /// Derivatives of `left^T P(s) right` by the numbers of each section of each span, in the order of [`Number::ALL`],
-    /// and by the speed of each span. With the opposite sign, they are those of what [`At::adjoint`] weighs in a response.
+    /// Derivatives of `left^T P(s) right` by the numbers of each section of each span, in the order of [`Number::ALL`], by the
+    /// speed of each span, and of the spans by `s`. With the opposite sign, they are those of what [`At::adjoint`] weighs in a
+    /// response.
     #[must_use]
     pub fn gradient(&self, left: &Motion, right: &Motion, s: Complex) -> Vec<SpanGradient> {
-        let mut all: Vec<SpanGradient> = self
-            .spans
-            .iter()
-            .map(|span| SpanGradient {
+        let of_span = |(index, span): (usize, &Span)| {
+            let mut own = SpanGradient {
+                rate: Complex::ZERO,
                 speed: Complex::ZERO,
                 sections: vec![[Complex::ZERO; Number::ALL.len()]; span.sections.len()],
-            })
-            .collect();
-        for (index, span) in self.spans.iter().enumerate() {
-            let own = &mut all[index];
+            };
+            let classes = self.classes_of(span.line);
             let sides = left.spans[index].iter().zip(&right.spans[index]);
-            for (d, (&direction, (left, right))) in span.directions().iter().zip(sides).enumerate() {
-                let classes = self.classes_of(span.line);
-                let turned = direction * span.speed;
-                // By the speed, then by each number, of each different section.
-                let of_kind = |(section, _): (usize, &Coefficients)| {
-                    let element = span.element(section);
-                    let by_speed = at(&element.by_speed(span.line), s).map(|slope| slope * direction);
-                    (by_speed, Number::ALL.map(|number| at(&element.slopes(span.line, turned, number), s)))
-                };
-                let slopes: Vec<_> = self.different(index, d).map(of_kind).collect();
-                for (section, (left, right)) in span.pieces().zip(left.elements().zip(right.elements())) {
+            for (d, (left, right)) in sides.enumerate() {
+                let pieces = span.pieces().zip(left.elements().zip(right.elements()));
+                for (section, (left, right)) in pieces {
                     let forms = forms(classes, left, right);
-                    let (by_speed, by_number) = &slopes[self.kinds[index][section]];
-                    own.speed += product(by_speed, &forms);
-                    for (to, slopes) in own.sections[section].iter_mut().zip(by_number) {
-                        *to += product(slopes, &forms);
+                    let kind = self.kinds[index][section];
+                    let k = &self.coefficients[index][d][kind];
+                    own.rate += product(&slope_at(k, s), &forms);
+                    for Change { number, term, slope: [a, b, c] } in &self.changes()[index][d][kind] {
+                        let change = (a + s * (b + s * c)) * forms[*term];
+                        *own.sections[section].get_mut(*number).unwrap_or(&mut own.speed) += change;
                     }
                     if span.line == Line::Slender {
                         // The slopes at the nodes, times half the length, are unknowns of the element.
-                        let k = at(&span.coefficients(section, direction), s);
+                        let k = at(k, s);
                         let at_slope = |a: &[Complex], b: &[Complex]| -> Complex {
                             let mut on = vec![Complex::ZERO; a.len()];
                             loads(classes, &k, a, &mut on);
@@ -262,8 +304,20 @@ impl Assembly {
             for (own, (_, pieces)) in own.sections.iter_mut().zip(&span.sections) {
                 own[Number::Length as usize] /= *pieces as f64;
             }
-        }
-        all
+            own
+        };
+        self.spans.iter().enumerate().map(of_span).collect()
+    }
+
+    /// The derivative of `left^T (s^2 M + s C + K) right` by `s`: of what is at the stations.
+    #[must_use]
+    pub fn slope_of_stations(&self, left: &[Complex], s: Complex, right: &[Complex]) -> Complex {
+        let rows = self.mass.iter().zip(self.damping.iter()).zip(left);
+        let of_row = |((mass, damping), left): ((&[f64], &[f64]), &Complex)| {
+            let entries = mass.iter().zip(damping).zip(right);
+            left * entries.map(|((m, c), right)| (c + 2.0 * s * m) * right).sum::<Complex>()
+        };
+        rows.map(of_row).sum()
     }
 
     /// Twice the amplitude of the kinetic energy over the square of the frequency, of each span in each direction of a motion:
@@ -289,6 +343,8 @@ impl Assembly {
 /// Derivatives by what describes a span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpanGradient {
+    /// By `s`.
+    pub rate: Complex,
     /// By its speed.
     pub speed: Complex,
     /// By the numbers of each section, in the order of [`Number::ALL`].
@@ -305,7 +361,7 @@ impl<'a> Condensed<'a> {
     pub fn matrix(&self) -> Matrix<Complex> {
         let own = self.assembly;
         let [mut matrix, _] = own.of_stations(self.s);
-        for (span, chains) in own.spans.iter().zip(&self.chains) {
+        for (span, chains) in own.spans.iter().zip(self.chains.iter()) {
             for (direction, chain) in span.directions().iter().zip(chains) {
                 span.add_blocks(*direction, &chain.ends, &mut matrix);
             }
@@ -340,7 +396,7 @@ impl<'a> Condensed<'a> {
 
     /// Loads everywhere as loads on the stations; what remains within is reduced in place, for [`Self::spread`].
     fn reduced(&self, mut loads: Motion, side: Side) -> Motion {
-        for ((span, chains), within) in self.assembly.spans.iter().zip(&self.chains).zip(&mut loads.spans) {
+        for ((span, chains), within) in self.assembly.spans.iter().zip(self.chains.iter()).zip(&mut loads.spans) {
             let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
             span.add_loads(&ends, side, &mut loads.stations);
         }
@@ -349,7 +405,7 @@ impl<'a> Condensed<'a> {
 
     /// Turns reduced loads between the stations into the motion there.
     fn spread(&self, motion: &mut Motion, side: Side) {
-        for ((span, chains), own) in self.assembly.spans.iter().zip(&self.chains).zip(&mut motion.spans) {
+        for ((span, chains), own) in self.assembly.spans.iter().zip(self.chains.iter()).zip(&mut motion.spans) {
             let ends = span.ends_of(&motion.stations, side);
             for ((chain, ends), along) in chains.iter().zip(ends).zip(own) {
                 chain.motion(ends, along);
@@ -379,14 +435,14 @@ impl At<'_> {
 
     /// The phase of the determinant of all equations.
     pub(crate) fn phase(&self) -> Complex {
-        let spans = self.condensed.assembly.spans.iter().zip(&self.condensed.chains);
+        let spans = self.condensed.assembly.spans.iter().zip(self.condensed.chains.iter());
         let within = spans.flat_map(|(span, chains)| chains.iter().map(|chain| chain.phase(span.components())));
         within.product::<Complex>() * self.factors.phase_of_determinant()
     }
 
     /// [`Self::solve`] for real loads at a real `s`, of which the first direction alone is kept.
     pub(crate) fn solve_real(&self, mut loads: Motion) -> Motion {
-        let spans = self.condensed.assembly.spans.iter().zip(&self.condensed.chains);
+        let spans = self.condensed.assembly.spans.iter().zip(self.condensed.chains.iter());
         for ((span, chains), within) in spans.zip(&mut loads.spans) {
             let ends: Vec<[Node; 2]> = chains.iter().zip(within).map(|(chain, loads)| chain.reduce(loads)).collect();
             let mut on = Vector::zeros(loads.stations.len());

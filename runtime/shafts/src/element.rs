@@ -138,9 +138,9 @@ pub(crate) fn blocks<T: Number>(
     let mut blocks = [[[[T::zero(); 2]; 2]; 2]; 2];
     for (number, class) in classes.iter().enumerate() {
         let nodal = if class.size <= SMALL {
-            eliminated::<T, SMALL>(class, c, k, keep.as_deref_mut())
+            eliminated::<T, SMALL, { SMALL * (SMALL + 1) / 2 }>(class, c, k, keep.as_deref_mut())
         } else {
-            eliminated::<T, SIZE>(class, c, k, keep.as_deref_mut())
+            eliminated::<T, SIZE, { SIZE * (SIZE + 1) / 2 }>(class, c, k, keep.as_deref_mut())
         };
         for a in 0..c {
             for b in 0..c {
@@ -162,43 +162,48 @@ pub(crate) fn blocks<T: Number>(
     blocks
 }
 
-/// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric and has room. Returns the block of the
-/// nodal ones; `keep` gets for each inner unknown `p`, the first first, the inverse of its pivot and the share of each before it.
+/// Eliminates the inner unknowns of a class, the last first; its matrix is symmetric, and what is on the diagonal and below has
+/// room. Returns the block of the nodal ones; `keep` gets for each inner unknown `p`, the first first, the inverse of its pivot
+/// and the share of each before it.
 #[inline(always)]
-fn eliminated<T: Number, const ROOM: usize>(
+fn eliminated<T: Number, const ROOM: usize, const ENTRIES: usize>(
     class: &Class,
     components: usize,
     k: &[T; TERMS],
-    keep: Option<&mut Vec<T>>,
+    mut keep: Option<&mut Vec<T>>,
 ) -> Block<T> {
     let n = class.size;
-    let mut all = [[T::zero(); ROOM]; ROOM];
+    let place = |i: usize, j: usize| i * (i + 1) / 2 + j;
+    let mut all = [T::zero(); ENTRIES];
     for &(i, j, term, value) in &class.entries {
-        all[i][j] += k[term].times(value);
+        all[place(i, j)] += k[term].times(value);
     }
-    // The inverse of the pivot of `p` and the shares of those before it, in row `p`.
-    let mut rows = [[T::zero(); ROOM]; ROOM];
+    if let Some(keep) = &mut keep {
+        let more = (components..n).map(|p| p + 1).sum::<usize>();
+        keep.resize(keep.len() + more, T::zero());
+    }
+    let mut end = keep.as_ref().map_or(0, |keep| keep.len());
+    let mut shares = [T::zero(); ROOM];
     for p in (components..n).rev() {
-        let inverse = all[p][p].inverse();
-        rows[p][0] = inverse;
+        let inverse = all[place(p, p)].inverse();
         for j in 0..p {
-            rows[p][j + 1] = all[p][j] * inverse;
+            shares[j] = all[place(p, j)] * inverse;
         }
-        let (above, row) = all.split_at_mut(p);
-        for (i, target) in above.iter_mut().enumerate() {
-            let share = rows[p][i + 1];
-            for (to, from) in target[..=i].iter_mut().zip(&row[0]) {
-                *to -= share * *from;
+        for i in 0..p {
+            for j in 0..=i {
+                let from = all[place(p, j)];
+                all[place(i, j)] -= shares[i] * from;
             }
         }
-    }
-    if let Some(keep) = keep {
-        for p in components..n {
-            keep.extend_from_slice(&rows[p][..=p]);
+        if let Some(keep) = &mut keep {
+            end -= p + 1;
+            keep[end] = inverse;
+            keep[end + 1..=end + p].copy_from_slice(&shares[..p]);
         }
     }
-    let mixed = if components == 2 { all[1][0] } else { T::zero() };
-    [[all[0][0], mixed], [mixed, if components == 2 { all[1][1] } else { T::zero() }]]
+    let [first, mixed, second] =
+        [0, 1, 2].map(|place| if place == 0 || components == 2 { all[place] } else { T::zero() });
+    [[first, mixed], [mixed, second]]
 }
 
 /// `left^T Q x` for each constant matrix.

@@ -13,7 +13,7 @@ mod section;
 mod span;
 mod varied;
 
-pub use assembly::{Assembly, At, Condensed, SpanGradient};
+pub use assembly::{Assembly, At, Chains, Condensed, SpanGradient};
 pub use eigentol_numerics::{Complex, Matrix};
 pub use error::Error;
 pub use modes::Mode;

@@ -232,6 +232,7 @@ impl Assembly {
         let mut all = self.gradient(&condensed.weights(&mode.left), &condensed.motion(&mode.right), mode.s);
         let factor = -self.normaliser(mode).inv();
         for own in &mut all {
+            own.rate *= factor;
             own.speed *= factor;
             own.sections.iter_mut().flatten().for_each(|x| *x *= factor);
         }

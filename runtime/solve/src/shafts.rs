@@ -6,7 +6,7 @@
 //! vibrations of a mechanism with shafts are those of `T`; its equilibrium is that of the compiled equations.
 
 use eigentol_contract::{LineKind, SpanInfo};
-use eigentol_shafts::{Assembly, LUMPED, Line, Number, Section, Span, SpanGradient, lumped};
+use eigentol_shafts::{Assembly, Chains, LUMPED, Line, Number, Section, Span, SpanGradient, lumped};
 
 mod along;
 
@@ -28,6 +28,19 @@ pub struct Shafts {
     pub(crate) whole: Assembly,
     /// Spans alone.
     pub(crate) spans: Assembly,
+    /// Spans at rest.
+    still: Chains,
+}
+
+/// Derivatives of `left^T T(s) right` for two vectors.
+#[doc(hidden)]
+pub struct FormGradient {
+    /// By the numbers of the spans, at fixed compiled matrices.
+    #[doc(hidden)]
+    pub by_number: Vector<Complex>,
+    /// By `s`.
+    #[doc(hidden)]
+    pub by_s: Complex,
 }
 
 /// The numbers of the spans of a mechanism; see [`Mechanism::spans`](eigentol_contract::Mechanism::spans).
@@ -95,7 +108,8 @@ impl Shafts {
         let degree = if slender { SLENDER } else { DEGREE };
         let zeros = || [(); 3].map(|()| Matrix::zeros(n, n));
         let alone = Assembly::new(spans.clone(), zeros(), degree).map_err(wrong)?;
-        let at_rest = alone.condensed(Complex::ZERO).matrix();
+        let still = alone.chains(Complex::ZERO);
+        let at_rest = alone.condensed_with(Complex::ZERO, &still).matrix();
         let at_rest = Matrix::from_fn(n, n, |i, j| at_rest[i][j].re);
         let linear = &at.linear;
         let mut mass = linear.mass.clone();
@@ -109,7 +123,7 @@ impl Shafts {
         }
         let stiffness = Matrix::from_fn(n, n, |i, j| linear.stiffness[i][j] - at_rest[i][j]);
         let whole = Assembly::new(spans, [mass, linear.damping.clone(), stiffness], degree).map_err(wrong)?;
-        Ok(Some(Self { whole, spans: alone }))
+        Ok(Some(Self { whole, spans: alone, still }))
     }
 
     /// `T(s)`.
@@ -134,19 +148,20 @@ impl Shafts {
         Matrix::from_fn(n, n, |i, j| columns[j][i])
     }
 
-    /// Derivatives of `left^T T(s) right` by the numbers of the spans, at fixed compiled matrices.
+    /// Derivatives of `left^T T(s) right`.
     #[must_use]
-    pub fn gradient(&self, left: &[Complex], s: Complex, right: &[Complex]) -> Vector<Complex> {
-        let at = |s: Complex| {
-            let condensed = self.spans.condensed(s);
+    pub fn gradient(&self, left: &[Complex], s: Complex, right: &[Complex]) -> FormGradient {
+        let at = |s: Complex, chains: &Chains| {
+            let condensed = self.spans.condensed_with(s, chains);
             self.spans.gradient(&condensed.weights(left), &condensed.motion(right), s)
         };
-        let (moving, still) = (at(s), at(Complex::ZERO));
+        let (moving, still) = (at(s, &self.spans.chains(s)), at(Complex::ZERO, &self.still));
         let mut all = Vec::new();
         for ((span, moving), still) in self.spans.spans().iter().zip(&moving).zip(&still) {
             all.extend(of_span(span, moving, still, |i| s * s * left[i] * right[i]));
         }
-        all.into()
+        let of_spans: Complex = moving.iter().map(|own| own.rate).sum();
+        FormGradient { by_number: all.into(), by_s: self.whole.slope_of_stations(left, s, right) + of_spans }
     }
 }
 
@@ -170,10 +185,12 @@ impl ShaftSlopes {
     }
 
     /// Adds the derivatives of `left^T T(s) right` by each input and then each design variable, at fixed compiled matrices.
+    /// Returns that by `s`.
     #[doc(hidden)]
-    pub fn add(&self, left: &[Complex], s: Complex, right: &[Complex], mut add: impl FnMut(usize, Complex)) {
-        let gradient = self.shafts.gradient(left, s, right);
-        (0..self.slopes.row_count()).for_each(|k| add(k, self.along(&gradient, k)));
+    pub fn add(&self, left: &[Complex], s: Complex, right: &[Complex], mut add: impl FnMut(usize, Complex)) -> Complex {
+        let FormGradient { by_number, by_s } = self.shafts.gradient(left, s, right);
+        (0..self.slopes.row_count()).for_each(|k| add(k, self.along(&by_number, k)));
+        by_s
     }
 
     /// A derivative by an input, or behind these by a design variable, from those by numbers.
@@ -188,7 +205,7 @@ impl ShaftSlopes {
     #[must_use]
     pub fn between(&self, modes: &[&Mode]) -> Vec<Vector<Complex>> {
         let each = modes.iter().flat_map(|a| modes.iter().map(move |b| (a, b)));
-        each.map(|(a, b)| self.shafts.gradient(a.left(), b.s, &b.shape)).collect()
+        each.map(|(a, b)| self.shafts.gradient(a.left(), b.s, &b.shape).by_number).collect()
     }
 }
 

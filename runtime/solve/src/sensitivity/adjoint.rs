@@ -177,16 +177,17 @@ impl AdjointContext<'_> {
             self.total(part, &mut room[0]);
         }
         let [re, im] = gradient;
-        if let Some(shafts) = &self.shafts {
-            shafts.add(mode.left(), mode.s, &mode.shape, |k, slope| {
+        let moved = match &self.shafts {
+            None => normaliser(self.at, None, mode),
+            Some(shafts) => shafts.add(mode.left(), mode.s, &mode.shape, |k, slope| {
                 let (re, im) = match k.checked_sub(re.inputs.len()) {
                     None => (&mut re.inputs[k], &mut im.inputs[k]),
                     Some(k) => (&mut re.design[k], &mut im.design[k]),
                 };
                 (*re, *im) = (*re + slope.re, *im + slope.im);
-            });
-        }
-        let scale = -normaliser(self.at, self.shafts.as_deref(), mode);
+            }),
+        };
+        let scale = -moved;
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
         let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
         let by_design = re.design.iter().zip(&im.design).map(slope);

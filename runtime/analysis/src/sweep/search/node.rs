@@ -137,11 +137,15 @@ fn general(
         let Some((shafts, (input, rate))) = shafts else {
             return quotient(products(&|x| pencil_slope_times(linear, s, x)), changes);
         };
-        let changes = Matrix::from_fn(cluster.len(), cluster.len(), |i, j| {
-            let (left, right) = (modes[cluster[i]].left(), &modes[cluster[j]].shape);
-            changes[i][j] + shafts.along(&shafts.shafts.gradient(left, s, right), input) * rate
-        });
-        quotient(products(&|x| shafts.shafts.slope_times(s, x)), changes)
+        let (mut moved, mut changes) = (Matrix::zeros(cluster.len(), cluster.len()), changes);
+        for (i, &row) in cluster.iter().enumerate() {
+            for (j, &column) in cluster.iter().enumerate() {
+                let gradient = shafts.shafts.gradient(modes[row].left(), s, &modes[column].shape);
+                changes[i][j] += shafts.along(&gradient.by_number, input) * rate;
+                moved[i][j] = gradient.by_s;
+            }
+        }
+        quotient(moved, changes)
     });
     let roots = modes.iter().zip(slopes);
     let root = |(mode, slope): (&Mode, Complex)| Root {
