@@ -11,17 +11,24 @@ pub struct Values<'a> {
     inputs: &'a [f64],
     design: &'a [f64],
     constants: Vec<f64>,
+    /// Constants that are computed where an expression needs them.
+    pending: &'a [Constant],
 }
 
 impl<'a> Values<'a> {
     /// Computes the named constants from inputs and design variables, all SI.
     pub fn new(constants: &[Constant], inputs: &'a [f64], design: &'a [f64]) -> Self {
-        let mut values = Self { inputs, design, constants: Vec::with_capacity(constants.len()) };
+        let mut values = Self { inputs, design, constants: Vec::with_capacity(constants.len()), pending: &[] };
         for constant in constants {
             let value = values.of(&constant.value);
             values.constants.push(value);
         }
         values
+    }
+
+    /// The same for a single expression: the constants that it needs are computed with it.
+    pub fn needed(constants: &'a [Constant], inputs: &'a [f64], design: &'a [f64]) -> Self {
+        Self { inputs, design, constants: Vec::new(), pending: constants }
     }
 
     /// The value of an expression; NaN if it depends on the motion or leaves the domain of a function.
@@ -41,7 +48,10 @@ impl<'a> Values<'a> {
             Expr::Number(value) => *value,
             Expr::Design(id) => known(self.design, id.index()),
             Expr::Input(id) => known(self.inputs, id.index()),
-            Expr::Constant(id) => known(&self.constants, id.index()),
+            Expr::Constant(id) => match self.pending.get(id.index()) {
+                Some(constant) => part(&constant.value),
+                None => known(&self.constants, id.index()),
+            },
             Expr::Coordinate(_)
             | Expr::Rate(_)
             | Expr::Position(..)
@@ -77,7 +87,7 @@ impl Values<'_> {
 
 /// The value of one expression of a mechanism at inputs `u` and design variables `b`, SI.
 pub fn evaluate(mechanism: &Mechanism, expr: &Expr, u: &[f64], b: &[f64]) -> f64 {
-    Values::new(&mechanism.constants, u, b).of(expr)
+    Values::needed(&mechanism.constants, u, b).of(expr)
 }
 
 /// A set of inputs or constants, used to find the expressions that depend on them.

@@ -296,7 +296,7 @@ impl Resolver<'_> {
     pub(in crate::model::resolve) fn nominal_of(&self, value: &Expr) -> f64 {
         let design: Vec<f64> = self.design.iter().map(|value| value.as_ref().map_or(f64::NAN, |x| x.value)).collect();
         let inputs = vec![1.0; self.inputs.len()];
-        crate::model::evaluate::Values::new(&self.constants, &inputs, &design).of(value)
+        crate::model::evaluate::Values::needed(&self.constants, &inputs, &design).of(value)
     }
 }
 
