@@ -55,13 +55,18 @@ impl Tools {
 
     /// Compiles one file to a shared library, unless an up-to-date one exists.
     pub(crate) fn library(&self, source: &Path) -> Result<PathBuf, String> {
-        let cpp = source.extension().is_some_and(|name| name == "cpp");
-        let (variable, default) = if cpp { ("CXX", "c++") } else { ("CC", "cc") };
-        let compiler = env::var(variable).unwrap_or_else(|_| default.to_owned());
         let architecture = match self.target {
             Target::Native => "native",
             Target::Counted => "x86-64-v3",
         };
+        self.library_for(architecture, &[], source)
+    }
+
+    /// The same for a given architecture, with further flags.
+    pub(crate) fn library_for(&self, architecture: &str, flags: &[&str], source: &Path) -> Result<PathBuf, String> {
+        let cpp = source.extension().is_some_and(|name| name == "cpp");
+        let (variable, default) = if cpp { ("CXX", "c++") } else { ("CC", "cc") };
+        let compiler = env::var(variable).unwrap_or_else(|_| default.to_owned());
         let name = source.file_stem().unwrap_or_default().to_string_lossy();
         let library = self.written()?.join(format!("{name}-{architecture}.so"));
         if newer(&library, source) {
@@ -73,6 +78,7 @@ impl Tools {
             .arg(source)
             .arg("-o")
             .arg(&library)
+            .args(flags)
             .arg("-lm")
             .status()
             .map_err(|error| format!("{compiler}: {error}"))?;

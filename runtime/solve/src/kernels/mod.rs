@@ -28,6 +28,7 @@ mod curvature;
 mod deviating_inputs;
 mod directional;
 mod interval;
+pub mod lanes;
 mod motion;
 mod partial_matrices;
 mod picture;
