@@ -240,7 +240,7 @@ fn peer_in_lanes(tools: &mut Tools, function: &str, lanes: &str) -> Result<Box<d
         fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
     }
     let architecture = if lanes == "lanes8" { "native" } else { "x86-64-v3" };
-    let library = tools.library_for(architecture, &["-ffast-math", "-lmvec"], &file)?;
+    let library = tools.library_for(architecture, &["-lmvec"], &file)?;
     let arguments = |[a, v, q]: Lanes| if function == "motion" { vec![v, q] } else { vec![a, v, q] };
     let inputs = states_in_lanes().into_iter().map(arguments).collect();
     Ok(Box::new(CasadiWork::load(&library, &format!("arm_{function}"), inputs)?))
