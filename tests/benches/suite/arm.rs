@@ -1,7 +1,6 @@
 //! The seven-joint arm of `tests/truth/panda_arm.json`: equations of motion against C code that CasADi generates from
 //! recursive Newton-Euler in each body's own frame.
 
-use std::fs;
 use std::hint::black_box;
 use std::path::PathBuf;
 
@@ -9,7 +8,7 @@ use eigentol::kernels::lanes::{self, LaneKernel};
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Mechanism, mechanism};
 
-use crate::casadi::{CasadiWork, Number};
+use crate::casadi::CasadiWork;
 use crate::lanes::vectors;
 use crate::tools::{Tools, newer, source};
 use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work};
@@ -211,9 +210,13 @@ impl<K: LaneKernel + Copy, const N: usize, const R: usize> Work for InLanes<K, N
         black_box(&self.results);
     }
 
-    fn results(&mut self, input: usize) -> Vec<Vec<f64>> {
-        self.evaluate(input);
-        self.results.iter().map(|list| Batch::plain(list)).collect()
+    fn states(&self) -> usize {
+        self.inputs() * WIDTH
+    }
+
+    fn results(&mut self, state: usize) -> Vec<Vec<f64>> {
+        self.evaluate(state / WIDTH);
+        self.results.iter().map(|list| list.iter().map(|batch| batch.0[state % WIDTH]).collect()).collect()
     }
 }
 
@@ -231,23 +234,15 @@ fn generated(tools: &mut Tools, function: &str) -> Result<PathBuf, String> {
 /// CasADi's C with vectors of eight numbers in place of its numbers.
 fn peer_in_lanes(tools: &mut Tools, function: &str, lanes: &str) -> Result<Box<dyn Work>, String> {
     let c = generated(tools, function)?;
-    let file = c.with_file_name(format!("arm_{function}_eight.cpp"));
-    let text = format!("#include {:?}\n#include {c:?}\n", source("eight.hpp"));
-    if fs::read_to_string(&file).ok().as_ref() != Some(&text)
-        || !newer(&file, &c)
-        || !newer(&file, &source("eight.hpp"))
-    {
-        fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
-    }
-    let architecture = if lanes == "lanes8" { "native" } else { "x86-64-v3" };
-    let library = tools.library_for(architecture, &["-lmvec"], &file)?;
+    let library = tools.eight_wide(&c, lanes)?;
     let arguments = |[a, v, q]: Lanes| if function == "motion" { vec![v, q] } else { vec![a, v, q] };
     let inputs = states_in_lanes().into_iter().map(arguments).collect();
     Ok(Box::new(CasadiWork::load(&library, &format!("arm_{function}"), inputs)?))
 }
 
 fn peer(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
-    let library = tools.library(&generated(tools, function)?)?;
+    let file = generated(tools, function)?;
+    let library = tools.library(&file)?;
     let inputs = states().into_iter().map(|s| {
         let (a, v, q) = (s.acceleration.to_vec(), s.velocity.to_vec(), s.q.to_vec());
         match function {

@@ -4,7 +4,7 @@ use std::ffi::c_int;
 use std::hint::black_box;
 use std::path::Path;
 
-use eigentol::scalar::Batch;
+use eigentol::scalar::{Batch, WIDTH};
 use libloading::{Library, Symbol};
 
 use crate::work::Work;
@@ -14,18 +14,23 @@ type Evaluate<T> = unsafe extern "C" fn(*const *const T, *const *mut T, *mut i64
 
 /// What stands for a `double`.
 pub(crate) trait Number: Copy + Default {
-    fn plain(list: &[Self]) -> Vec<f64>;
+    /// Number of states side by side.
+    const STATES: usize;
+    /// That of one state.
+    fn of(self, state: usize) -> f64;
 }
 
 impl Number for f64 {
-    fn plain(list: &[Self]) -> Vec<f64> {
-        list.to_vec()
+    const STATES: usize = 1;
+    fn of(self, _: usize) -> f64 {
+        self
     }
 }
 
 impl Number for Batch {
-    fn plain(list: &[Self]) -> Vec<f64> {
-        list.iter().flat_map(|batch| batch.0).collect()
+    const STATES: usize = WIDTH;
+    fn of(self, state: usize) -> f64 {
+        self.0[state]
     }
 }
 
@@ -115,8 +120,13 @@ impl<T: Number> Work for CasadiWork<T> {
         black_box(&self.outputs);
     }
 
-    fn results(&mut self, input: usize) -> Vec<Vec<f64>> {
-        self.evaluate(input);
-        self.outputs.iter().map(|list| T::plain(list)).collect()
+    fn states(&self) -> usize {
+        self.inputs() * T::STATES
+    }
+
+    fn results(&mut self, state: usize) -> Vec<Vec<f64>> {
+        self.evaluate(state / T::STATES);
+        let of_state = |list: &Vec<T>| list.iter().map(|number| number.of(state % T::STATES)).collect();
+        self.outputs.iter().map(of_state).collect()
     }
 }

@@ -161,7 +161,7 @@ const fn forced_in_vectors<M: Mechanism>() -> bool {
 }
 
 /// Evaluates a kernel of plain numbers for each lane.
-pub(super) fn lane_by_lane(
+pub fn lane_by_lane(
     arguments: &[&[Batch]],
     results: &mut [&mut [Batch]],
     mut evaluate: impl FnMut(&[&[f64]], &mut [&mut [f64]]),

@@ -22,7 +22,7 @@
 use core::marker::PhantomData;
 
 use crate::DampingKind;
-use crate::mechanism::{self, Array, Description, GradientOf, Mechanism, Square};
+use crate::mechanism::{self, Array, Description, GradientOf, Mechanism, PartialsOf, Square};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// A kernel that vectors evaluate.
@@ -35,7 +35,7 @@ pub trait LaneKernel {
     fn run<M: Mechanism, V: Lanes>(mechanism: &M, arguments: &[&[Batch]], results: &mut [&mut [Batch]], at: usize);
 }
 
-/// Operations up to which rustc compiles a kernel for each kind of vector in seconds.
+/// Operations up to which rustc compiles a kernel for every width of vector in some twenty seconds, a millisecond each.
 const MOST: usize = 20_000;
 
 /// Evaluates a kernel of a compiled mechanism at [`WIDTH`] states. One that the compiler did not generate, or with more than
@@ -160,6 +160,14 @@ fn store_linears<V: Lanes, M: Mechanism>(
     }
 }
 
+#[inline(always)]
+fn store_partials<V: Lanes, M: Mechanism>(from: &PartialsOf<M, V>, to: [[Room<'_, '_>; 3]; 3], at: usize) {
+    let [by_coordinate, by_input, by_design] = to;
+    store_linears::<V, M>(from.by_coordinate.as_ref(), by_coordinate, at);
+    store_linears::<V, M>(from.by_input.as_ref(), by_input, at);
+    store_linears::<V, M>(from.by_design.as_ref(), by_design, at);
+}
+
 /// Calls a kernel in its inlined form, which vectors need, or in the form compiled for callers with a single state.
 macro_rules! call {
     ($v:ident: $m:ident.$kernel:ident or $inlined:ident $arguments:tt) => {
@@ -229,19 +237,15 @@ kernels! {
         store_rows(found.1.as_ref(), by_design, at);
     }
     /// [`Mechanism::linear_partials`]: for all coordinates, then for inputs and design variables, the derivatives of mass,
-    /// of damping and of stiffness by one variable after the other.
+    /// of damping and of stiffness by one variable after the other. They stand on the stack together, 64 bytes an entry.
     LinearPartials "linear_partials" [q, u, b] -> [m0, c0, k0, m1, c1, k1, m2, c2, k2] in (m, M, at, V) => {
         let found = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
-        store_linears::<V, M>(found.by_coordinate.as_ref(), [m0, c0, k0], at);
-        store_linears::<V, M>(found.by_input.as_ref(), [m1, c1, k1], at);
-        store_linears::<V, M>(found.by_design.as_ref(), [m2, c2, k2], at);
+        store_partials::<V, M>(&found, [[m0, c0, k0], [m1, c1, k1], [m2, c2, k2]], at);
     }
     /// [`Mechanism::partials`]: the lists of [`LinearPartials`], then those of [`ResidualPartials`].
     Partials "linear_partials" [q, u, b] -> [m0, c0, k0, m1, c1, k1, m2, c2, k2, g1, g2] in (m, M, at, V) => {
         let found = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
-        store_linears::<V, M>(found.by_coordinate.as_ref(), [m0, c0, k0], at);
-        store_linears::<V, M>(found.by_input.as_ref(), [m1, c1, k1], at);
-        store_linears::<V, M>(found.by_design.as_ref(), [m2, c2, k2], at);
+        store_partials::<V, M>(&found, [[m0, c0, k0], [m1, c1, k1], [m2, c2, k2]], at);
         let found = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
         store_rows(found.0.as_ref(), g1, at);
         store_rows(found.1.as_ref(), g2, at);
