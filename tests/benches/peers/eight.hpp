@@ -1,47 +1,48 @@
-// C code that CasADi generates, for eight states at once: `casadi_real` is a vector of eight numbers, and sines and
-// cosines are those of libmvec, which a compiler takes for loops. A file defines nothing else, and includes the C.
+// C code that CasADi generates, for eight states at once: `casadi_real` is a vector of eight numbers, or two of four, and
+// sines and cosines are those of libmvec, which a compiler takes for loops. A file includes this, then the C.
 #include <math.h>
-#if defined(__AVX512F__) || defined(__AVX2__)
 #include <immintrin.h>
-#else
-#error "libmvec has eight sines at once for AVX2 and AVX-512 only"
-#endif
-
-typedef double Numbers __attribute__((vector_size(64)));
 
 #define INLINED inline __attribute__((always_inline))
 
 #ifdef __AVX512F__
-extern "C" __m512d _ZGVeN8v_sin(__m512d);
-extern "C" __m512d _ZGVeN8v_cos(__m512d);
-#define LIBMVEC(name) \
-    static INLINED Numbers name##_of(Numbers x) { return (Numbers)_ZGVeN8v_##name((__m512d)x); }
+typedef __m512d Part;
+extern "C" Part _ZGVeN8v_sin(Part);
+extern "C" Part _ZGVeN8v_cos(Part);
+#define LIBMVEC(name) _ZGVeN8v_##name
+#define PARTS(expression) PART(a, expression)
 #else
-extern "C" __m256d _ZGVdN4v_sin(__m256d);
-extern "C" __m256d _ZGVdN4v_cos(__m256d);
-#define LIBMVEC(name)                                                     \
-    static INLINED Numbers name##_of(Numbers x) {                         \
-        union { Numbers all; __m256d half[2]; } both = {x};               \
-        both.half[0] = _ZGVdN4v_##name(both.half[0]);                     \
-        both.half[1] = _ZGVdN4v_##name(both.half[1]);                     \
-        return both.all;                                                  \
-    }
+typedef __m256d Part;
+extern "C" Part _ZGVdN4v_sin(Part);
+extern "C" Part _ZGVdN4v_cos(Part);
+#define LIBMVEC(name) _ZGVdN4v_##name
+#define PARTS(expression) PART(a, expression) PART(b, expression)
 #endif
-LIBMVEC(sin)
-LIBMVEC(cos)
 
 struct Eight {
-    Numbers of;
+#define PART(p, expression) Part p;
+    PARTS()
+#undef PART
     INLINED Eight() {}
-    INLINED Eight(Numbers numbers) : of(numbers) {}
-    INLINED Eight(double number) : of(Numbers{} + number) {}
-    friend INLINED Eight operator+(Eight a, Eight b) { return a.of + b.of; }
-    friend INLINED Eight operator-(Eight a, Eight b) { return a.of - b.of; }
-    friend INLINED Eight operator*(Eight a, Eight b) { return a.of * b.of; }
-    friend INLINED Eight operator/(Eight a, Eight b) { return a.of / b.of; }
-    friend INLINED Eight operator-(Eight a) { return -a.of; }
-    friend INLINED Eight sin(Eight a) { return sin_of(a.of); }
-    friend INLINED Eight cos(Eight a) { return cos_of(a.of); }
+#define PART(p, expression) p = Part{} + number;
+    INLINED Eight(double number) { PARTS() }
+#undef PART
+#define PART(p, expression) z.p = expression(p);
+#define PLUS(p) x.p + y.p
+#define MINUS(p) x.p - y.p
+#define TIMES(p) x.p * y.p
+#define OVER(p) x.p / y.p
+#define NEGATED(p) -x.p
+#define SINE(p) LIBMVEC(sin)(x.p)
+#define COSINE(p) LIBMVEC(cos)(x.p)
+#define RESULT(expression) { Eight z; PARTS(expression) return z; }
+    friend INLINED Eight operator+(Eight x, Eight y) RESULT(PLUS)
+    friend INLINED Eight operator-(Eight x, Eight y) RESULT(MINUS)
+    friend INLINED Eight operator*(Eight x, Eight y) RESULT(TIMES)
+    friend INLINED Eight operator/(Eight x, Eight y) RESULT(OVER)
+    friend INLINED Eight operator-(Eight x) RESULT(NEGATED)
+    friend INLINED Eight sin(Eight x) RESULT(SINE)
+    friend INLINED Eight cos(Eight x) RESULT(COSINE)
 };
 
 #define casadi_real Eight
