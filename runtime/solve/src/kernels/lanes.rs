@@ -19,8 +19,6 @@
 //! }
 //! ```
 
-use core::marker::PhantomData;
-
 use crate::DampingKind;
 use crate::mechanism::{self, Array, Description, GradientOf, Mechanism, PartialsOf, Square};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
@@ -45,13 +43,13 @@ const MOST: usize = 20_000;
 /// On another number of lists, or lists of other lengths, than the kernel has.
 #[inline]
 pub fn evaluate<K: LaneKernel, M: Mechanism>(
-    _: K,
+    _kernel: K,
     mechanism: &M,
     instructions: Instructions,
     arguments: &[&[Batch]],
     results: &mut [&mut [Batch]],
 ) {
-    let task = AtStates { mechanism, arguments, results, kernel: PhantomData::<K> };
+    let task = AtStates { mechanism, arguments, results, _kernel };
     if const { operations::<M>(K::NAME) <= MOST } {
         instructions.run(task);
     } else {
@@ -61,12 +59,12 @@ pub fn evaluate<K: LaneKernel, M: Mechanism>(
 
 /// [`evaluate`] state by state.
 pub(super) fn one_by_one<K: LaneKernel, M: Mechanism>(
-    _: K,
+    _kernel: K,
     mechanism: &M,
     arguments: &[&[Batch]],
     results: &mut [&mut [Batch]],
 ) {
-    AtStates { mechanism, arguments, results, kernel: PhantomData::<K> }.run::<f64>();
+    AtStates { mechanism, arguments, results, _kernel }.run::<f64>();
 }
 
 /// Operations of a kernel, without bound if the compiler did not generate it.
@@ -86,7 +84,7 @@ struct AtStates<'a, 'b, M, K> {
     mechanism: &'a M,
     arguments: &'a [&'a [Batch]],
     results: &'a mut [&'b mut [Batch]],
-    kernel: PhantomData<K>,
+    _kernel: K,
 }
 
 impl<M: Mechanism, K: LaneKernel> Task for AtStates<'_, '_, M, K> {
@@ -112,7 +110,8 @@ fn load<V: Lanes, A: Array<V>>(from: &[Batch], at: usize) -> A {
 }
 
 #[inline(always)]
-fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
+fn store<V: Lanes>(from: &impl Array<V>, to: &mut [Batch], at: usize) {
+    let from = from.as_ref();
     let to = &mut to[..from.len()];
     for (k, from) in from.iter().enumerate() {
         from.store(&mut to[k], at);
@@ -121,24 +120,21 @@ fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
 
 /// Stores a matrix row by row.
 #[inline(always)]
-fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
+fn store_rows<V: Lanes, R: Array<V>>(from: &impl Array<R>, to: &mut [Batch], at: usize) {
+    let from = from.as_ref();
     let to = &mut to[..R::LEN * from.len()];
     for (i, from) in from.iter().enumerate() {
-        store(from.as_ref(), &mut to[R::LEN * i..], at);
+        store(from, &mut to[R::LEN * i..], at);
     }
 }
 
 type Room<'a, 'b> = &'a mut &'b mut [Batch];
 
 #[inline(always)]
-fn store_gradient<V: Lanes, M: Mechanism>(
-    from: &GradientOf<M, V>,
-    [coordinates, inputs, design]: [Room<'_, '_>; 3],
-    at: usize,
-) {
-    store(from.coordinates.as_ref(), coordinates, at);
-    store(from.inputs.as_ref(), inputs, at);
-    store(from.design.as_ref(), design, at);
+fn store_gradient<V: Lanes, M: Mechanism>(from: &GradientOf<M, V>, [dq, du, db]: [Room<'_, '_>; 3], at: usize) {
+    store(&from.coordinates, dq, at);
+    store(&from.inputs, du, at);
+    store(&from.design, db, at);
 }
 
 /// Stores matrices one after the other. A damping matrix that is always zero is not read, so the kernel need not write
@@ -152,10 +148,10 @@ fn store_linears<V: Lanes, M: Mechanism>(
     let size = M::Coordinates::<V>::LEN * M::Coordinates::<V>::LEN;
     for (k, from) in from.iter().enumerate() {
         let first = k * size;
-        store_rows(from.mass.as_ref(), &mut mass[first..], at);
-        store_rows(from.stiffness.as_ref(), &mut stiffness[first..], at);
+        store_rows(&from.mass, &mut mass[first..], at);
+        store_rows(&from.stiffness, &mut stiffness[first..], at);
         if const { damped(const { &M::DESCRIPTION }) } {
-            store_rows(from.damping.as_ref(), &mut damping[first..], at);
+            store_rows(&from.damping, &mut damping[first..], at);
         }
     }
 }
@@ -177,9 +173,9 @@ macro_rules! call {
 
 /// Defines kernels: the lists they take, and how what they return is stored.
 macro_rules! kernels {
-    ($(
+    ($m:ident: $machine:ident, $v:ident, $at:ident; $(
         $(#[doc = $text:literal])*
-        $kernel:ident $name:literal [$($argument:ident),*] -> [$($result:ident),*] in ($m:ident, $machine:ident, $at:ident, $v:ident) => $body:block
+        $kernel:ident $name:literal [$($argument:ident),*] -> [$($result:ident),*] $body:block
     )*) => {$(
         $(#[doc = $text])*
         #[derive(Clone, Copy, Debug)]
@@ -196,7 +192,7 @@ macro_rules! kernels {
                 $at: usize,
             ) {
                 let ([$($argument),*], [$($result),*]) = (arguments, results) else {
-                    panic!("a kernel takes and returns a fixed number of lists");
+                    panic!("wrong number of lists");
                 };
                 $(let $argument = &load($argument, $at);)*
                 $body
@@ -206,87 +202,88 @@ macro_rules! kernels {
 }
 
 kernels! {
+    m: M, V, at;
     /// [`Mechanism::residual`].
-    Residual "residual" [q, u, b] -> [residual] in (m, M, at, V) => {
-        let found = call!(V: m.residual or residual_inlined(q, u, b));
-        store(found.as_ref(), residual, at);
+    Residual "residual" [q, u, b] -> [residual] {
+        let x = call!(V: m.residual or residual_inlined(q, u, b));
+        store(&x, residual, at);
     }
     /// [`Mechanism::residual_and_stiffness`].
-    ResidualAndStiffness "residual_and_stiffness" [q, u, b] -> [residual, stiffness] in (m, M, at, V) => {
-        let found = call!(V: m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
-        store(found.0.as_ref(), residual, at);
-        store_rows(found.1.as_ref(), stiffness, at);
+    ResidualAndStiffness "residual_and_stiffness" [q, u, b] -> [residual, stiffness] {
+        let x = call!(V: m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
+        store(&x.0, residual, at);
+        store_rows(&x.1, stiffness, at);
     }
     /// [`Mechanism::linear`]. A damping matrix that is always zero is not written, here and in its derivatives.
-    Linear "linear" [q, u, b] -> [mass, damping, stiffness] in (m, M, at, V) => {
-        let found = call!(V: m.linear or linear_inlined(q, u, b));
-        store_linears::<V, M>(&[found], [mass, damping, stiffness], at);
+    Linear "linear" [q, u, b] -> [mass, damping, stiffness] {
+        let x = call!(V: m.linear or linear_inlined(q, u, b));
+        store_linears::<V, M>(&[x], [mass, damping, stiffness], at);
     }
     /// [`Mechanism::residual_parts`] and [`Mechanism::linear`].
-    PartsAndLinear "linear" [q, u, b] -> [inertia, applied, mass, damping, stiffness] in (m, M, at, V) => {
-        let found = call!(V: m.residual_parts or residual_parts_inlined(q, u, b));
-        store(found.inertia.as_ref(), inertia, at);
-        store(found.applied.as_ref(), applied, at);
-        let found = call!(V: m.linear or linear_inlined(q, u, b));
-        store_linears::<V, M>(&[found], [mass, damping, stiffness], at);
+    PartsAndLinear "linear" [q, u, b] -> [inertia, applied, mass, damping, stiffness] {
+        let x = call!(V: m.residual_parts or residual_parts_inlined(q, u, b));
+        store(&x.inertia, inertia, at);
+        store(&x.applied, applied, at);
+        let x = call!(V: m.linear or linear_inlined(q, u, b));
+        store_linears::<V, M>(&[x], [mass, damping, stiffness], at);
     }
     /// [`Mechanism::residual_partials`].
-    ResidualPartials "residual_partials" [q, u, b] -> [by_input, by_design] in (m, M, at, V) => {
-        let found = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
-        store_rows(found.0.as_ref(), by_input, at);
-        store_rows(found.1.as_ref(), by_design, at);
+    ResidualPartials "residual_partials" [q, u, b] -> [by_input, by_design] {
+        let x = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
+        store_rows(&x.0, by_input, at);
+        store_rows(&x.1, by_design, at);
     }
     /// [`Mechanism::linear_partials`]: for all coordinates, then for inputs and design variables, the derivatives of mass,
     /// of damping and of stiffness by one variable after the other. They stand on the stack together, 64 bytes an entry.
-    LinearPartials "linear_partials" [q, u, b] -> [m0, c0, k0, m1, c1, k1, m2, c2, k2] in (m, M, at, V) => {
-        let found = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
-        store_partials::<V, M>(&found, [[m0, c0, k0], [m1, c1, k1], [m2, c2, k2]], at);
+    LinearPartials "linear_partials" [q, u, b] -> [m0, c0, k0, m1, c1, k1, m2, c2, k2] {
+        let x = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
+        store_partials::<V, M>(&x, [[m0, c0, k0], [m1, c1, k1], [m2, c2, k2]], at);
     }
     /// [`Mechanism::partials`]: the lists of [`LinearPartials`], then those of [`ResidualPartials`].
-    Partials "linear_partials" [q, u, b] -> [m0, c0, k0, m1, c1, k1, m2, c2, k2, g1, g2] in (m, M, at, V) => {
-        let found = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
-        store_partials::<V, M>(&found, [[m0, c0, k0], [m1, c1, k1], [m2, c2, k2]], at);
-        let found = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
-        store_rows(found.0.as_ref(), g1, at);
-        store_rows(found.1.as_ref(), g2, at);
+    Partials "linear_partials" [q, u, b] -> [m0, c0, k0, m1, c1, k1, m2, c2, k2, g1, g2] {
+        let x = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
+        store_partials::<V, M>(&x, [[m0, c0, k0], [m1, c1, k1], [m2, c2, k2]], at);
+        let x = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
+        store_rows(&x.0, g1, at);
+        store_rows(&x.1, g2, at);
     }
     /// [`Mechanism::mode_gradient`].
-    ModeGradient "mode_gradient" [q, u, b, phi, lambda] -> [coordinates, inputs, design] in (m, M, at, V) => {
+    ModeGradient "mode_gradient" [q, u, b, phi, lambda] -> [dq, du, db] {
         let [lambda] = *lambda;
-        let found = call!(V: m.mode_gradient or mode_gradient_inlined(q, u, b, phi, lambda));
-        store_gradient::<V, M>(&found, [coordinates, inputs, design], at);
+        let x = call!(V: m.mode_gradient or mode_gradient_inlined(q, u, b, phi, lambda));
+        store_gradient::<V, M>(&x, [dq, du, db], at);
     }
     /// [`Mechanism::residual_gradient`].
-    ResidualGradient "residual_gradient" [q, u, b, w] -> [coordinates, inputs, design] in (m, M, at, V) => {
-        let found = call!(V: m.residual_gradient or residual_gradient_inlined(q, u, b, w));
-        store_gradient::<V, M>(&found, [coordinates, inputs, design], at);
+    ResidualGradient "residual_gradient" [q, u, b, w] -> [dq, du, db] {
+        let x = call!(V: m.residual_gradient or residual_gradient_inlined(q, u, b, w));
+        store_gradient::<V, M>(&x, [dq, du, db], at);
     }
     /// [`Mechanism::pencil_gradient`].
-    PencilGradient "pencil_gradient" [q, u, b, w, a, v, x] -> [coordinates, inputs, design] in (m, M, at, V) => {
-        let found = call!(V: m.pencil_gradient or pencil_gradient_inlined(q, u, b, w, a, v, x));
-        store_gradient::<V, M>(&found, [coordinates, inputs, design], at);
+    PencilGradient "pencil_gradient" [q, u, b, w, a, v, y] -> [dq, du, db] {
+        let x = call!(V: m.pencil_gradient or pencil_gradient_inlined(q, u, b, w, a, v, y));
+        store_gradient::<V, M>(&x, [dq, du, db], at);
     }
     /// [`Mechanism::forced_gradient`].
-    ForcedGradient "forced_gradient" [q, u, b, o, a, v, x, share, c, s, dc, ds, w] -> [coordinates, inputs, design] in (m, M, at, V) => {
-        let found = call!(V: m.forced_gradient or forced_gradient_inlined(q, u, b, o, a, v, x, share, c, s, dc, ds, w));
-        store_gradient::<V, M>(&found, [coordinates, inputs, design], at);
+    ForcedGradient "forced_gradient" [q, u, b, o, a, v, y, share, c, s, dc, ds, w] -> [dq, du, db] {
+        let x = call!(V: m.forced_gradient or forced_gradient_inlined(q, u, b, o, a, v, y, share, c, s, dc, ds, w));
+        store_gradient::<V, M>(&x, [dq, du, db], at);
     }
     /// [`Mechanism::motion_residual`].
-    MotionResidual "motion_residual" [acceleration, velocity, q, u, b] -> [residual] in (m, M, at, V) => {
-        let found = call!(V: m.motion_residual or motion_residual_inlined(acceleration, velocity, q, u, b));
-        store(found.as_ref(), residual, at);
+    MotionResidual "motion_residual" [a, v, q, u, b] -> [residual] {
+        let x = call!(V: m.motion_residual or motion_residual_inlined(a, v, q, u, b));
+        store(&x, residual, at);
     }
     /// [`Mechanism::motion`].
-    Motion "motion" [velocity, q, u, b] -> [mass, right] in (m, M, at, V) => {
-        let found = call!(V: m.motion or motion_inlined(velocity, q, u, b));
-        store_rows(found.0.as_ref(), mass, at);
-        store(found.1.as_ref(), right, at);
+    Motion "motion" [v, q, u, b] -> [mass, right] {
+        let x = call!(V: m.motion or motion_inlined(v, q, u, b));
+        store_rows(&x.0, mass, at);
+        store(&x.1, right, at);
     }
     /// [`Mechanism::motion_linear`].
-    MotionLinear "motion_linear" [acceleration, velocity, q, u, b] -> [mass, damping, stiffness] in (m, M, at, V) => {
-        let found = call!(V: m.motion_linear or motion_linear_inlined(acceleration, velocity, q, u, b));
-        store_rows(found.mass.as_ref(), mass, at);
-        store_rows(found.damping.as_ref(), damping, at);
-        store_rows(found.stiffness.as_ref(), stiffness, at);
+    MotionLinear "motion_linear" [a, v, q, u, b] -> [mass, damping, stiffness] {
+        let x = call!(V: m.motion_linear or motion_linear_inlined(a, v, q, u, b));
+        store_rows(&x.mass, mass, at);
+        store_rows(&x.damping, damping, at);
+        store_rows(&x.stiffness, stiffness, at);
     }
 }
