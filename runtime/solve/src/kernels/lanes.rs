@@ -6,9 +6,9 @@
 //! result is, bit for bit, what the kernel gives for that state alone.
 //!
 //! ```
+//! use eigentol_contract::Mechanism;
+//! use eigentol_contract::scalar::{Batch, Instructions};
 //! use eigentol_solve::kernels::lanes::{MotionResidual, evaluate};
-//! use eigentol_solve::mechanism::Mechanism;
-//! use eigentol_solve::scalar::{Batch, Instructions};
 //!
 //! /// Generalised forces of a motion without inputs and design variables at eight states: N or N m, from rad, rad/s, rad/s^2.
 //! fn inverse_dynamics<M: Mechanism>(machine: &M, [a, v, q]: [&[Batch]; 3]) -> Vec<Batch> {
