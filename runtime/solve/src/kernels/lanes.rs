@@ -33,11 +33,12 @@ pub trait LaneKernel {
     fn run<M: Mechanism, V: Lanes>(mechanism: &M, arguments: &[&[Batch]], results: &mut [&mut [Batch]], at: usize);
 }
 
-/// Operations up to which rustc compiles a kernel for every width of vector in some twenty seconds, a millisecond each.
-const MOST: usize = 20_000;
+/// Operations up to which rustc compiles a kernel for every width of vector in some twenty seconds, a millisecond each. Without
+/// optimisation every intermediate result has 64 bytes of the stack, which more would fill.
+const MOST: usize = if cfg!(debug_assertions) { 2_000 } else { 20_000 };
 
 /// Evaluates a kernel of a compiled mechanism at [`WIDTH`] states. One that the compiler did not generate, or with more than
-/// some 20,000 operations, is called state by state.
+/// some 20,000 operations (without optimisation 2,000), is called state by state.
 ///
 /// # Panics
 /// On another number of lists, or lists of other lengths, than the kernel has.
@@ -220,18 +221,18 @@ kernels! {
         store_linears::<V, M>(&[x], [mass, damping, stiffness], at);
     }
     /// [`Mechanism::residual_parts`] and [`Mechanism::linear`].
-    PartsAndLinear "linear" [q, u, b] -> [inertia, applied, mass, damping, stiffness] {
+    PartsAndLinear "linear" [q, u, b] -> [inertia, applied, m0, c0, k0] {
         let x = call!(V: m.residual_parts or residual_parts_inlined(q, u, b));
         store(&x.inertia, inertia, at);
         store(&x.applied, applied, at);
         let x = call!(V: m.linear or linear_inlined(q, u, b));
-        store_linears::<V, M>(&[x], [mass, damping, stiffness], at);
+        store_linears::<V, M>(&[x], [m0, c0, k0], at);
     }
     /// [`Mechanism::residual_partials`].
-    ResidualPartials "residual_partials" [q, u, b] -> [by_input, by_design] {
+    ResidualPartials "residual_partials" [q, u, b] -> [g1, g2] {
         let x = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
-        store_rows(&x.0, by_input, at);
-        store_rows(&x.1, by_design, at);
+        store_rows(&x.0, g1, at);
+        store_rows(&x.1, g2, at);
     }
     /// [`Mechanism::linear_partials`]: for all coordinates, then for inputs and design variables, the derivatives of mass,
     /// of damping and of stiffness by one variable after the other. They stand on the stack together, 64 bytes an entry.
