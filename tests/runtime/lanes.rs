@@ -1,12 +1,13 @@
 //! On a batch of states, kernels give the same bits as for each state alone, with every instruction set.
 
 use crate::common::pendulum::Pendulum as ByHand;
+use eigentol::kernels::lanes::{self, LaneKernel};
 use eigentol::kernels::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Gradient, Kernels, Linear,
-    LinearPartials, RestParts,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Gradient, Kernel, Kernels, Linear,
+    LinearPartials, MotionKernel, MotionKernels, RestParts,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
-use eigentol::{Matrix, mechanism};
+use eigentol::{Matrix, Mechanism, mechanism};
 
 mechanism! {
     /// Every function of the language: roots, powers, exponentials and angles.
@@ -43,6 +44,26 @@ mechanism! {
         joint spin:   revolute(z) from ground to shaft, driven at omega;
         joint theta1: revolute(y) from shaft to bar1;
         joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+    }
+}
+
+mechanism! {
+    /// Damping, a force without a potential, a body without mass: what vectors do not take in solvers.
+    mechanism Damped {
+        input omega: rad/s;
+        design c = 0.4 N*m*s/rad;
+        design push = 2.0 N;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: 2.0 kg, length: 1.0 m, along: x);
+        body bead: point(mass: 0.5 kg);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint lean: revolute(y) from shaft to bar;
+        joint slide: prismatic(x) from bar to bead;
+        point end: bar at [1.0, 0, 0] m;
+        force hold: spring(on: slide, stiffness: 50 N/m, rest: 0.5 m);
+        force grease: damper(on: lean, damping: c);
+        force thrust: follower(at: end, force: [0, 0, push]);
     }
 }
 
@@ -187,6 +208,61 @@ fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
     }
 }
 
+/// Compares a kernel that [`lanes::evaluate`] takes with the same for each state alone.
+fn check_lists<K: LaneKernel + Copy, M: Mechanism>(
+    (kernel, m): (K, &M),
+    arguments: &[&[Batch]],
+    entries: &[usize],
+    alone: impl Fn(&[&[f64]], &mut [&mut [f64]]),
+) {
+    for set in Instructions::available() {
+        let mut found: Vec<Vec<Batch>> = entries.iter().map(|count| vec![Batch::default(); *count]).collect();
+        let mut to: Vec<&mut [Batch]> = found.iter_mut().map(Vec::as_mut_slice).collect();
+        lanes::evaluate(kernel, m, set, arguments, &mut to);
+        for state in 0..WIDTH {
+            let lists: Vec<Vec<f64>> = arguments.iter().map(|list| of_state(list, state)).collect();
+            let lists: Vec<&[f64]> = lists.iter().map(Vec::as_slice).collect();
+            let mut expected: Vec<Vec<f64>> = entries.iter().map(|count| vec![0.0; *count]).collect();
+            let mut to: Vec<&mut [f64]> = expected.iter_mut().map(Vec::as_mut_slice).collect();
+            alone(&lists, &mut to);
+            found.iter().zip(&expected).for_each(|(found, expected)| same_list(found, state, expected));
+        }
+    }
+}
+
+/// Compares the kernels that no table has in vectors.
+fn check_named<M: Mechanism>(m: &M, q: &[Batch], u: &[Batch], b: &[Batch]) {
+    let n = q.len();
+    let mut random = numbers();
+    let [a, v] = [(); 2].map(|()| batches(n, &mut random));
+    let rest = |kernel| move |from: &[&[f64]], to: &mut [&mut [f64]]| Kernels::evaluate(m, kernel, from, to);
+    let moving = |kernel| move |from: &[&[f64]], to: &mut [&mut [f64]]| m.evaluate_motion(kernel, from, to);
+    let (at, along) = ([q, u, b], [&a, &v, q, u, b]);
+    check_lists((lanes::Residual, m), &at, &[n], rest(Kernel::Residual));
+    let by = [n * u.len(), n * b.len()];
+    check_lists((lanes::ResidualPartials, m), &at, &by, rest(Kernel::ResidualPartials));
+    let each = [n, u.len(), b.len()].map(|count| [count * n * n; 3]);
+    check_lists((lanes::LinearPartials, m), &at, each.as_flattened(), |from, to| {
+        let kernels: &dyn Kernels = m;
+        let partials = kernels.linear_partials(from[0], from[1], from[2]);
+        let kinds = [partials.by_coordinate, partials.by_input, partials.by_design];
+        for (to, changes) in to.chunks_mut(3).zip(&kinds) {
+            let lists = |of: fn(&Linear) -> &Matrix| changes.iter().flat_map(of_rows(of)).collect::<Vec<f64>>();
+            to[0].copy_from_slice(&lists(|x| &x.mass));
+            to[1].copy_from_slice(&lists(|x| &x.damping));
+            to[2].copy_from_slice(&lists(|x| &x.stiffness));
+        }
+    });
+    check_lists((lanes::MotionResidual, m), &along, &[n], moving(MotionKernel::Residual));
+    check_lists((lanes::Motion, m), &along[1..], &[n * n, n], moving(MotionKernel::Motion));
+    check_lists((lanes::MotionLinear, m), &along, &[n * n; 3], moving(MotionKernel::Linear));
+}
+
+/// The entries of one of three matrices.
+fn of_rows(of: fn(&Linear) -> &Matrix) -> impl Fn(&Linear) -> Vec<f64> {
+    move |linear| of(linear).as_flattened().to_vec()
+}
+
 #[test]
 fn random_states() {
     let mut random = numbers();
@@ -197,6 +273,9 @@ fn random_states() {
         check(&Everything, &q, &u, &b);
         check(&Double, &q, &u, &b);
         check(&Double, &batches(2, || 2e4 * random()), &u, &b);
+        check_named(&Everything, &q, &u, &b);
+        check_named(&Double, &q, &u, &b);
+        check_named(&Damped, &q, &u, &b[..2]);
     }
 }
 
@@ -210,6 +289,8 @@ fn states_at_the_edges() {
             let q = [Batch::from_fn(odd); 2];
             check(&Double, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
             check(&Everything, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
+            check_named(&Everything, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
+            check_named(&Damped, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 2]);
         }
         check(&Double, &[Batch::all(value); 2], &[Batch::all(2.0)], &[Batch::all(value); 4]);
     }
@@ -221,6 +302,7 @@ fn written_by_hand() {
     let mut random = numbers();
     let (q, b) = (batches(1, &mut random), batches(2, || 1.5 + random()));
     check(&ByHand, &q, &[Batch::all(3.0)], &b);
+    check_named(&ByHand, &q, &[Batch::all(3.0)], &b);
 }
 
 #[test]

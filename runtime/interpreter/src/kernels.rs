@@ -3,7 +3,7 @@
 use eigentol::kernels::{
     BatchKernels, BatchLinear, BatchPartials, BatchPoint, Curvature, CurvatureKernels, Directional, DirectionalKernels,
     Gradient, Interval, Kernel, Kernels, Linear, MotionKernel, MotionKernels, PartialMatrices, PictureKernels, Second,
-    Sizes, gradient_results, linear_results,
+    Sizes, gradient_results, lane_by_lane, linear_results,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Description, Dual, PictureInfo, PoseMargin, Shared, Violation};
@@ -296,6 +296,15 @@ impl MotionKernels for Interpreted {
         match (kernel, &tapes[kernel as usize]) {
             (MotionKernel::Linear, None) => self.linear_by_columns(arguments, results),
             (_, tape) => run(tape, arguments, results),
+        }
+    }
+
+    fn evaluate_motion_batch(&self, kernel: MotionKernel, arguments: &[&[Batch]], results: &mut [&mut [Batch]]) {
+        match &self.shared.tapes.in_motion[kernel as usize] {
+            None => lane_by_lane(arguments, results, |arguments, results| {
+                self.evaluate_motion(kernel, arguments, results);
+            }),
+            tape => run_batch(tape, Instructions::best(), arguments, results),
         }
     }
 }

@@ -2,10 +2,14 @@
 //! recursive Newton-Euler in each body's own frame.
 
 use std::hint::black_box;
+use std::path::PathBuf;
 
+use eigentol::kernels::lanes::{self, LaneKernel};
+use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Mechanism, mechanism};
 
 use crate::casadi::CasadiWork;
+use crate::lanes::vectors;
 use crate::tools::{Tools, newer, source};
 use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work};
 
@@ -54,8 +58,30 @@ pub(crate) fn numbers() -> String {
     source("../../truth/panda_arm.json").to_string_lossy().into_owned()
 }
 
+/// Functions of eight states at once.
+const IN_LANES: [&str; 3] = ["motion_residual", "motion", "motion_linear"];
+
 /// The tasks with a selected name.
 pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
+    let mut tasks = one_by_one(wanted, tools);
+    for function in IN_LANES {
+        for (lanes, instructions) in vectors() {
+            let name = format!("arm/{function}-{lanes}");
+            if wanted(&name) {
+                tasks.push(Task {
+                    name,
+                    units: [WIDTH, WIDTH],
+                    agreement: AGREEMENT,
+                    ours: ours_in_lanes(function, instructions),
+                    peer: peer_in_lanes(tools, function, lanes),
+                });
+            }
+        }
+    }
+    tasks
+}
+
+fn one_by_one(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
     let named = FUNCTIONS.map(|function| (format!("arm/{function}"), function));
     let named = named.into_iter().filter(|(name, _)| wanted(name));
     let task = |(name, function)| Task {
@@ -132,14 +158,90 @@ fn ours(function: &str) -> Box<dyn Work> {
     }
 }
 
-fn peer(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
+/// States side by side: acceleration, velocity and position.
+type Lanes = [Vec<Batch>; 3];
+
+fn states_in_lanes() -> Vec<Lanes> {
+    let all = states();
+    let lanes = all.chunks_exact(WIDTH).map(|states| {
+        let gather = |list: fn(&State) -> &[f64; 7]| {
+            let batch = |k| Batch::from_fn(|lane| list(&states[lane])[k]);
+            (0..7).map(batch).collect()
+        };
+        [gather(|s| &s.acceleration), gather(|s| &s.velocity), gather(|s| &s.q)]
+    });
+    lanes.collect()
+}
+
+fn ours_in_lanes(function: &str, instructions: Instructions) -> Box<dyn Work> {
+    let all: fn(&Lanes) -> [&[Batch]; 5] = |[a, v, q]| [a, v, q, &[], &[]];
+    match function {
+        "motion_residual" => Box::new(InLanes::new(lanes::MotionResidual, instructions, all, [7])),
+        "motion_linear" => Box::new(InLanes::new(lanes::MotionLinear, instructions, all, [49; 3])),
+        _ => Box::new(InLanes::new(lanes::Motion, instructions, |[_, v, q]| [v, q, &[], &[]], [49, 7])),
+    }
+}
+
+/// A kernel on batches of states.
+struct InLanes<K, const N: usize, const R: usize> {
+    kernel: K,
+    instructions: Instructions,
+    inputs: Vec<Lanes>,
+    arguments: fn(&Lanes) -> [&[Batch]; N],
+    results: [Vec<Batch>; R],
+}
+
+impl<K, const N: usize, const R: usize> InLanes<K, N, R> {
+    fn new(kernel: K, instructions: Instructions, arguments: fn(&Lanes) -> [&[Batch]; N], entries: [usize; R]) -> Self {
+        let results = entries.map(|count| vec![Batch::default(); count]);
+        Self { kernel, instructions, inputs: states_in_lanes(), arguments, results }
+    }
+}
+
+impl<K: LaneKernel + Copy, const N: usize, const R: usize> Work for InLanes<K, N, R> {
+    fn inputs(&self) -> usize {
+        self.inputs.len()
+    }
+
+    fn evaluate(&mut self, input: usize) {
+        let arguments = (self.arguments)(black_box(&self.inputs[input]));
+        let mut results = self.results.each_mut().map(Vec::as_mut_slice);
+        lanes::evaluate(self.kernel, &Arm, self.instructions, &arguments, &mut results);
+        black_box(&self.results);
+    }
+
+    fn states(&self) -> usize {
+        self.inputs() * WIDTH
+    }
+
+    fn results(&mut self, state: usize) -> Vec<Vec<f64>> {
+        self.evaluate(state / WIDTH);
+        self.results.iter().map(|list| list.iter().map(|batch| batch.0[state % WIDTH]).collect()).collect()
+    }
+}
+
+/// CasADi's C of a function.
+fn generated(tools: &mut Tools, function: &str) -> Result<PathBuf, String> {
     let (script, folder) = ("arm.py", tools.written()?);
-    let name = format!("arm_{function}");
-    let file = folder.join(format!("{name}.c"));
+    let file = folder.join(format!("arm_{function}.c"));
     if !newer(&file, &source(script)) {
         let folder = folder.to_string_lossy();
         tools.casadi(script, &["emit", &numbers(), &folder, function])?;
     }
+    Ok(file)
+}
+
+/// CasADi's C with vectors of eight numbers in place of its numbers.
+fn peer_in_lanes(tools: &mut Tools, function: &str, lanes: &str) -> Result<Box<dyn Work>, String> {
+    let c = generated(tools, function)?;
+    let library = tools.eight_wide(&c, lanes)?;
+    let arguments = |[a, v, q]: Lanes| if function == "motion" { vec![v, q] } else { vec![a, v, q] };
+    let inputs = states_in_lanes().into_iter().map(arguments).collect();
+    Ok(Box::new(CasadiWork::load(&library, &format!("arm_{function}"), inputs)?))
+}
+
+fn peer(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
+    let file = generated(tools, function)?;
     let library = tools.library(&file)?;
     let inputs = states().into_iter().map(|s| {
         let (a, v, q) = (s.acceleration.to_vec(), s.velocity.to_vec(), s.q.to_vec());
@@ -149,5 +251,5 @@ fn peer(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
             _ => vec![q],
         }
     });
-    Ok(Box::new(CasadiWork::load(&library, &name, inputs.collect())?))
+    Ok(Box::new(CasadiWork::load(&library, &format!("arm_{function}"), inputs.collect())?))
 }

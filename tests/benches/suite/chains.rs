@@ -1,6 +1,7 @@
 //! Kernels of the chain of bars against C code that CasADi generates from closed forms.
 
 use std::hint::black_box;
+use std::path::PathBuf;
 
 use eigentol::{Array, Linear, LinearPartials, Mechanism, PartialsOf, Square};
 
@@ -169,7 +170,8 @@ fn zeros<M: Mechanism>() -> PartialsOf<M, f64> {
     }
 }
 
-pub(crate) fn peer<M: Mechanism>(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
+/// The name of CasADi's function, and its C.
+pub(crate) fn emitted<M: Mechanism>(tools: &mut Tools, function: &str) -> Result<(String, PathBuf), String> {
     let bars = bars::<M>();
     let (script, folder) = ("chain.py", tools.written()?);
     let name = format!("chain{bars}_{function}");
@@ -178,6 +180,11 @@ pub(crate) fn peer<M: Mechanism>(tools: &mut Tools, function: &str) -> Result<Bo
         let (size, folder) = (bars.to_string(), folder.to_string_lossy());
         tools.casadi(script, &["emit", &size, &folder, function])?;
     }
+    Ok((name, file))
+}
+
+fn peer<M: Mechanism>(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
+    let (name, file) = emitted::<M>(tools, function)?;
     let library = tools.library(&file)?;
     let inputs = states::<M>().into_iter().map(|s| {
         let mut arguments = [s.q.as_ref(), s.u.as_ref(), s.b.as_ref()].map(<[f64]>::to_vec).to_vec();

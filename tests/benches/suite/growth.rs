@@ -26,6 +26,13 @@ pub(crate) trait Kernels: Copy + 'static {
         b: &Self::Design<T>,
     ) -> Self::Coordinates<T>;
 
+    fn residual_inlined<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Coordinates<T>;
+
     fn mode_gradient<T: Real>(
         &self,
         q: &Self::Coordinates<T>,

@@ -1,17 +1,21 @@
-//! The same kernels at several states at once, against CasADi's C at one state at a time.
+//! The same kernels at several states at once, against CasADi's C at eight.
 
 use std::hint::black_box;
 
-use eigentol::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPoint, Gradient, Linear};
+use eigentol::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchPoint, Gradient, Linear, Sizes};
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Matrix, Mechanism, Vector};
 
+use crate::casadi::CasadiWork;
 use crate::chains::{self, State, Visitor, visit_short};
 use crate::tools::Tools;
 use crate::work::{AGREEMENT, Task, Work};
 
 /// Timed functions, by CasADi's names.
 pub(crate) const FUNCTIONS: [&str; 3] = ["residual_and_stiffness", "linear", "mode_gradient"];
+
+/// The longest chain with all partial derivatives: they are generated for larger ones only here.
+const MOST_WITH_ALL: usize = 8;
 
 /// Vectors of four and eight numbers, if this processor supports them.
 pub(crate) fn vectors() -> impl Iterator<Item = (&'static str, Instructions)> {
@@ -35,7 +39,8 @@ struct Collector<'a> {
 impl Visitor for Collector<'_> {
     fn visit<M: Mechanism + 'static>(&mut self, chain: M) {
         let bars = chains::bars::<M>();
-        for function in FUNCTIONS {
+        let all = (bars <= MOST_WITH_ALL).then_some("all");
+        for function in FUNCTIONS.into_iter().chain(all) {
             for (lanes, instructions) in vectors() {
                 let name = format!("chain{bars}/{function}-{lanes}");
                 if !(self.wanted)(&name) {
@@ -43,14 +48,24 @@ impl Visitor for Collector<'_> {
                 }
                 self.tasks.push(Task {
                     name,
-                    units: [WIDTH, 1],
+                    units: [WIDTH, WIDTH],
                     agreement: AGREEMENT,
                     ours: ours(Box::new(chain.clone()), states::<M>(), function, instructions),
-                    peer: chains::peer::<M>(self.tools, function),
+                    peer: peer::<M>(self.tools, function, lanes),
                 });
             }
         }
     }
+}
+
+fn peer<M: Mechanism>(tools: &mut Tools, function: &str, lanes: &str) -> Result<Box<dyn Work>, String> {
+    let (name, file) = chains::emitted::<M>(tools, function)?;
+    let library = tools.eight_wide(&file, lanes)?;
+    let inputs = states::<M>().into_iter().map(|States { q, u, b, phi, lambda }| match function {
+        "mode_gradient" => vec![q, u, b, phi, vec![lambda]],
+        _ => vec![q, u, b],
+    });
+    Ok(Box::new(CasadiWork::load(&library, &name, inputs.collect())?))
 }
 
 /// A batch full of states.
@@ -119,6 +134,23 @@ where
     }
 }
 
+/// Room for partial derivatives: of mass, damping and stiffness by coordinates, inputs and design variables; of the residual by
+/// the last two.
+struct All {
+    matrices: [[Vec<Batch>; 3]; 3],
+    residual: [Vec<Batch>; 2],
+}
+
+impl All {
+    fn zeros(sizes: Sizes) -> Self {
+        let n = sizes.coordinates;
+        let zeros = |count| vec![Batch::default(); count];
+        let [inputs, design] = [sizes.inputs, sizes.design].map(|count| count * n);
+        let matrices = [n * n, inputs, design].map(|count| [(); 3].map(|()| zeros(count * n)));
+        Self { matrices, residual: [zeros(inputs), zeros(design)] }
+    }
+}
+
 pub(crate) fn ours(
     chain: Box<dyn BatchKernels>,
     inputs: Vec<States>,
@@ -152,6 +184,24 @@ pub(crate) fn ours(
             lane: |out: &Linear<Batch>, of_lane: OfLane<'_>| {
                 let matrices = [&out.mass, &out.stiffness];
                 matrices.map(|x| of_lane(x.as_flattened())).to_vec()
+            },
+        }),
+        "all" => Box::new(Lanes {
+            inputs,
+            out: All::zeros(sizes),
+            evaluate: move |s: &States, out: &mut All| {
+                let [by_coordinate, by_input, by_design] =
+                    out.matrices.each_mut().map(|[mass, damping, stiffness]| BatchLinear { mass, damping, stiffness });
+                let mut matrices = BatchPartials { by_coordinate, by_input, by_design };
+                let residual = out.residual.each_mut().map(Vec::as_mut_slice);
+                chain.partials_batch(instructions, s.point(), &mut matrices, residual);
+            },
+            lane: move |out: &All, of_lane: OfLane<'_>| {
+                let (count, rows) = (sizes.design, of_lane(&out.residual[1]));
+                let columns = (0..count).flat_map(|k| rows.iter().copied().skip(k).step_by(count)).collect();
+                let mut results = vec![of_lane(&out.residual[0]), columns];
+                results.extend([0, 2].iter().flat_map(|&kind| out.matrices.each_ref().map(|by| of_lane(&by[kind]))));
+                results
             },
         }),
         _ => Box::new(Lanes {

@@ -103,8 +103,8 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
     let name = task.name;
     let mut worst = None;
     if let Ok(peer) = &mut task.peer {
-        for input in 0..peer.inputs() {
-            let value = difference(&task.ours.results(input), &peer.results(input))
+        for state in 0..peer.states() {
+            let value = difference(&task.ours.results(state), &peer.results(state))
                 .map_err(|reason| format!("{name}: {reason}"))?;
             if value > task.agreement {
                 return Err(format!("{name}: results differ by {value:e}"));

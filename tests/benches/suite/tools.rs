@@ -55,13 +55,31 @@ impl Tools {
 
     /// Compiles one file to a shared library, unless an up-to-date one exists.
     pub(crate) fn library(&self, source: &Path) -> Result<PathBuf, String> {
-        let cpp = source.extension().is_some_and(|name| name == "cpp");
-        let (variable, default) = if cpp { ("CXX", "c++") } else { ("CC", "cc") };
-        let compiler = env::var(variable).unwrap_or_else(|_| default.to_owned());
         let architecture = match self.target {
             Target::Native => "native",
             Target::Counted => "x86-64-v3",
         };
+        self.library_for(architecture, &[], source)
+    }
+
+    /// Compiles C that CasADi generated with vectors of eight numbers in place of its numbers: for this machine, or with vectors
+    /// of four for what has our vectors of four.
+    pub(crate) fn eight_wide(&self, c: &Path, lanes: &str) -> Result<PathBuf, String> {
+        let header = source("eight.hpp");
+        let name = c.file_stem().unwrap_or_default().to_string_lossy();
+        let file = c.with_file_name(format!("{name}_eight.cpp"));
+        if !newer(&file, c) || !newer(&file, &header) {
+            let text = format!("#include {header:?}\n#include {c:?}\n");
+            fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))?;
+        }
+        let architecture = if lanes == "lanes4" { "x86-64-v3" } else { "native" };
+        self.library_for(architecture, &["-lmvec"], &file)
+    }
+
+    fn library_for(&self, architecture: &str, flags: &[&str], source: &Path) -> Result<PathBuf, String> {
+        let cpp = source.extension().is_some_and(|name| name == "cpp");
+        let (variable, default) = if cpp { ("CXX", "c++") } else { ("CC", "cc") };
+        let compiler = env::var(variable).unwrap_or_else(|_| default.to_owned());
         let name = source.file_stem().unwrap_or_default().to_string_lossy();
         let library = self.written()?.join(format!("{name}-{architecture}.so"));
         if newer(&library, source) {
@@ -73,6 +91,7 @@ impl Tools {
             .arg(source)
             .arg("-o")
             .arg(&library)
+            .args(flags)
             .arg("-lm")
             .status()
             .map_err(|error| format!("{compiler}: {error}"))?;

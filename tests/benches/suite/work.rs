@@ -16,8 +16,12 @@ pub(crate) trait Work {
     fn inputs(&self) -> usize;
     /// Evaluates one input and passes the results to `black_box`.
     fn evaluate(&mut self, input: usize);
-    /// The results for one input, array by array, for comparison with another implementation.
-    fn results(&mut self, input: usize) -> Vec<Vec<f64>>;
+    /// Number of results: of inputs, or of the states in them.
+    fn states(&self) -> usize {
+        self.inputs()
+    }
+    /// The results for one state, array by array, for comparison with another implementation.
+    fn results(&mut self, state: usize) -> Vec<Vec<f64>>;
 
     /// Evaluates `repetitions` times, cycling through the inputs.
     fn run(&mut self, repetitions: u64) {

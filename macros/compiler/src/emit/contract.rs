@@ -18,7 +18,11 @@ use super::signature::{call, head, signature};
 
 /// Kernels that loops over vector lanes call. Their bodies are inlined at the call, because the instruction set of such
 /// a loop applies only to code inlined into it.
-const INLINED: [KernelName; 9] = [
+const INLINED: [KernelName; 13] = [
+    KernelName::Residual,
+    KernelName::MotionResidual,
+    KernelName::Motion,
+    KernelName::MotionLinear,
     KernelName::ResidualParts,
     KernelName::ResidualAndStiffness,
     KernelName::Linear,

@@ -58,18 +58,19 @@ pub type OutputMotionOf<M, T> = (
 
 /// Forms of methods that are inlined at the call site; each calls the method.
 macro_rules! inlined {
-    ($($(#[$attribute:meta])* $inlined:ident: $kernel:ident($($argument:ident: $kind:ty),*) -> $result:ty;)*) => {$(
+    ($($(#[$attribute:meta])* $inlined:ident: $kernel:ident($(&$moving:ident)* $($argument:ident: $kind:ty),*) -> $result:ty;)*) => {$(
         $(#[$attribute])*
         #[doc(hidden)]
         #[inline(always)]
         fn $inlined<T: Real>(
             &self,
+            $($moving: &Self::Coordinates<T>,)*
             q: &Self::Coordinates<T>,
             u: &Self::Inputs<T>,
             b: &Self::Design<T>,
             $($argument: $kind),*
         ) -> $result {
-            self.$kernel(q, u, b, $($argument),*)
+            self.$kernel($($moving,)* q, u, b, $($argument),*)
         }
     )*};
 }
@@ -586,6 +587,10 @@ pub trait Mechanism: Clone + Sync + Sized {
         residual_and_stiffness_inlined: residual_and_stiffness() -> (Self::Coordinates<T>, Square<Self, T>);
         residual_parts_inlined: residual_parts() -> RestParts<Self::Coordinates<T>>;
         linear_inlined: linear() -> Linear<Square<Self, T>>;
+        residual_inlined: residual() -> Self::Coordinates<T>;
+        motion_residual_inlined: motion_residual(&acceleration &velocity) -> Self::Coordinates<T>;
+        motion_inlined: motion(&velocity) -> (Square<Self, T>, Self::Coordinates<T>);
+        motion_linear_inlined: motion_linear(&acceleration &velocity) -> Linear<Square<Self, T>>;
         residual_partials_inlined: residual_partials() -> ResidualPartialsOf<Self, T>;
         linear_partials_inlined: linear_partials() -> PartialsOf<Self, T>;
         linear_partials_into_inlined: linear_partials_into(result: &mut PartialsOf<Self, T>) -> ();

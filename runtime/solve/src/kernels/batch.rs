@@ -6,10 +6,10 @@
 
 use core::slice;
 
-use super::{DirectionalKernels, Kernels};
-use crate::mechanism::{Array, Gradient, GradientOf, Linear, LinearPartials, Mechanism, RestParts, Square};
-use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
-use crate::{DampingKind, Description};
+use super::lanes::{self, LaneKernel, damped, operations};
+use super::{DirectionalKernels, Kernel, Kernels};
+use crate::mechanism::{Array, Gradient, Linear, LinearPartials, Mechanism, RestParts};
+use crate::scalar::{Batch, Instructions, WIDTH};
 
 /// Unknowns, inputs and design variables of a batch of states.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ pub trait BatchKernels: DirectionalKernels {
     fn evaluate_states(
         &self,
         instructions: Instructions,
-        kernel: super::Kernel,
+        kernel: Kernel,
         arguments: &[&[Batch]],
         results: &mut [&mut [Batch]],
     );
@@ -63,7 +63,7 @@ pub trait BatchKernels: DirectionalKernels {
         linear: &mut BatchLinear<'_>,
     ) {
         let results = &mut [&mut *parts.inertia, &mut *parts.applied];
-        self.evaluate_states(instructions, super::Kernel::ResidualParts, &at.lists(), results);
+        self.evaluate_states(instructions, Kernel::ResidualParts, &at.lists(), results);
         self.linear_batch(instructions, at, linear);
     }
 
@@ -76,13 +76,12 @@ pub trait BatchKernels: DirectionalKernels {
         stiffness: &mut [Batch],
     ) {
         let results = &mut [residual, stiffness];
-        self.evaluate_states(instructions, super::Kernel::ResidualAndStiffness, &at.lists(), results);
+        self.evaluate_states(instructions, Kernel::ResidualAndStiffness, &at.lists(), results);
     }
 
     /// [`Kernels::linear_into`](super::Kernels::linear_into).
     fn linear_batch(&self, instructions: Instructions, at: BatchPoint<'_>, linear: &mut BatchLinear<'_>) {
-        let results = &mut [&mut *linear.mass, &mut *linear.damping, &mut *linear.stiffness];
-        self.evaluate_states(instructions, super::Kernel::Linear, &at.lists(), results);
+        self.evaluate_states(instructions, Kernel::Linear, &at.lists(), &mut linear_results(linear));
     }
 
     /// [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into), with a separate mode for each state.
@@ -95,7 +94,7 @@ pub trait BatchKernels: DirectionalKernels {
         gradient: &mut BatchGradient<'_>,
     ) {
         let arguments = [at.q, at.u, at.b, phi, slice::from_ref(lambda)];
-        self.evaluate_states(instructions, super::Kernel::ModeGradient, &arguments, &mut results(gradient));
+        self.evaluate_states(instructions, Kernel::ModeGradient, &arguments, &mut results(gradient));
     }
 
     /// [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
@@ -107,8 +106,13 @@ pub trait BatchKernels: DirectionalKernels {
         gradient: &mut BatchGradient<'_>,
     ) {
         let arguments = [at.q, at.u, at.b, w];
-        self.evaluate_states(instructions, super::Kernel::ResidualGradient, &arguments, &mut results(gradient));
+        self.evaluate_states(instructions, Kernel::ResidualGradient, &arguments, &mut results(gradient));
     }
+}
+
+/// The three matrices as results.
+fn linear_results<'a>(linear: &'a mut BatchLinear<'_>) -> [&'a mut [Batch]; 3] {
+    [&mut *linear.mass, &mut *linear.damping, &mut *linear.stiffness]
 }
 
 /// A gradient as results.
@@ -122,224 +126,22 @@ impl<'a> BatchPoint<'a> {
     }
 }
 
-#[inline(always)]
-fn load<V: Lanes, A: Array<V>>(from: &[Batch], at: usize) -> A {
-    // Loops, here and below: an iterator adaptor that is not inlined loses the vector instructions.
-    let mut vectors = A::filled(V::constant(0.0));
-    let from = &from[..A::LEN];
-    for (k, vector) in vectors.as_mut().iter_mut().enumerate() {
-        *vector = V::load(&from[k], at);
-    }
-    vectors
-}
-
-#[inline(always)]
-fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
-    let to = &mut to[..from.len()];
-    for (k, from) in from.iter().enumerate() {
-        from.store(&mut to[k], at);
-    }
-}
-
-/// Stores a matrix row by row.
-#[inline(always)]
-fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
-    let to = &mut to[..R::LEN * from.len()];
-    for (i, from) in from.iter().enumerate() {
-        store(from.as_ref(), &mut to[R::LEN * i..], at);
-    }
-}
-
-#[inline(always)]
-fn store_gradient<V: Lanes, M: Mechanism>(from: &GradientOf<M, V>, to: &mut BatchGradient<'_>, at: usize) {
-    store(from.coordinates.as_ref(), to.coordinates, at);
-    store(from.inputs.as_ref(), to.inputs, at);
-    store(from.design.as_ref(), to.design, at);
-}
-
-/// Stores matrices one after the other. A damping matrix that is always zero is not read, so the kernel need not write
-/// it.
-#[inline(always)]
-fn store_linears<V: Lanes, M: Mechanism>(from: &[Linear<Square<M, V>>], to: &mut BatchLinear<'_>, at: usize) {
-    let size = M::Coordinates::<V>::LEN * M::Coordinates::<V>::LEN;
-    for (k, from) in from.iter().enumerate() {
-        let first = k * size;
-        store_rows(from.mass.as_ref(), &mut to.mass[first..], at);
-        store_rows(from.stiffness.as_ref(), &mut to.stiffness[first..], at);
-        if const { damped(const { &M::DESCRIPTION }) } {
-            store_rows(from.damping.as_ref(), &mut to.damping[first..], at);
-        }
-    }
-}
-
-/// A kernel of a compiled mechanism, as a task for a set of instructions.
-struct Call<'a, M, F> {
-    mechanism: &'a M,
-    /// By reference: slices just written one word at a time are slow to copy.
-    at: &'a BatchPoint<'a>,
-    kernel: F,
-}
-
-/// Unknowns, inputs and design variables in vectors.
-type Point<'a, M, V> =
-    (&'a <M as Mechanism>::Coordinates<V>, &'a <M as Mechanism>::Inputs<V>, &'a <M as Mechanism>::Design<V>);
-
-/// The body of a [`Call`] for the states from `at` on.
-trait Kernel<M: Mechanism> {
-    fn run<V: Lanes>(&mut self, mechanism: &M, point: Point<'_, M, V>, at: usize);
-}
-
-impl<M: Mechanism, F: Kernel<M>> Task for Call<'_, M, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Lanes>(mut self) {
-        for at in (0..WIDTH).step_by(V::WIDTH) {
-            let q: M::Coordinates<V> = load(self.at.q, at);
-            let u: M::Inputs<V> = load(self.at.u, at);
-            let b: M::Design<V> = load(self.at.b, at);
-            self.kernel.run::<V>(self.mechanism, (&q, &u, &b), at);
-        }
-    }
-}
-
-/// Defines a kernel with its buffers.
-macro_rules! kernel {
-    ($task:ident<$($life:lifetime),+> { $($field:ident: $kind:ty),* }, $m:ident, ($q:ident, $u:ident, $b:ident), $at:ident, $v:ident => $body:block) => {
-        struct $task<$($life),+> {
-            $($field: $kind,)*
-        }
-
-        impl<$($life,)+ M: Mechanism> Kernel<M> for $task<$($life),+> {
-            #[inline(always)]
-            fn run<$v: Lanes>(
-                &mut self,
-                $m: &M,
-                ($q, $u, $b): Point<'_, M, $v>,
-                $at: usize,
-            ) {
-                let Self { $($field),* } = self;
-                $body
-            }
-        }
-    };
-}
-
-/// Calls a kernel in its inlined form, which vectors need, or in the form compiled for callers with a single state.
-macro_rules! call {
-    ($v:ident: $m:ident.$kernel:ident or $inlined:ident $arguments:tt) => {
-        if const { pays::<M>() && $v::WIDTH > 1 } {
-            $m.$inlined $arguments
-        } else {
-            $m.$kernel $arguments
-        }
-    };
-}
-
-kernel! {
-    ResidualAndStiffnessTask<'a> { residual: &'a mut [Batch], stiffness: &'a mut [Batch] },
-    m, (q, u, b), at, V => {
-        let found = call!(V: m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
-        store(found.0.as_ref(), residual, at);
-        store_rows(found.1.as_ref(), stiffness, at);
-    }
-}
-kernel! {
-    LinearTask<'a, 'b> { linear: &'a mut BatchLinear<'b> },
-    m, (q, u, b), at, V => {
-        let found = call!(V: m.linear or linear_inlined(q, u, b));
-        store_linears::<V, M>(&[found], linear, at);
-    }
-}
-kernel! {
-    PartsAndLinear<'a, 'b, 'c> { parts: &'a mut BatchParts<'b>, linear: &'a mut BatchLinear<'c> },
-    m, (q, u, b), at, V => {
-        let found = call!(V: m.residual_parts or residual_parts_inlined(q, u, b));
-        store(found.inertia.as_ref(), parts.inertia, at);
-        store(found.applied.as_ref(), parts.applied, at);
-        let found = call!(V: m.linear or linear_inlined(q, u, b));
-        store_linears::<V, M>(&[found], linear, at);
-    }
-}
-kernel! {
-    Partials<'a, 'b> { matrices: &'a mut BatchPartials<'b>, residual: [&'a mut [Batch]; 2] },
-    m, (q, u, b), at, V => {
-        let found = call!(V: m.linear_partials or linear_partials_inlined(q, u, b));
-        store_linears::<V, M>(found.by_coordinate.as_ref(), &mut matrices.by_coordinate, at);
-        store_linears::<V, M>(found.by_input.as_ref(), &mut matrices.by_input, at);
-        store_linears::<V, M>(found.by_design.as_ref(), &mut matrices.by_design, at);
-        let found = call!(V: m.residual_partials or residual_partials_inlined(q, u, b));
-        store_rows(found.0.as_ref(), residual[0], at);
-        store_rows(found.1.as_ref(), residual[1], at);
-    }
-}
-kernel! {
-    ModeGradientTask<'a, 'b> { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut BatchGradient<'b> },
-    m, (q, u, b), at, V => {
-        let found = call!(V: m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
-        store_gradient::<V, M>(&found, gradient, at);
-    }
-}
-kernel! {
-    ResidualGradientTask<'a, 'b> { w: &'a [Batch], gradient: &'a mut BatchGradient<'b> },
-    m, (q, u, b), at, V => {
-        let found = call!(V: m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
-        store_gradient::<V, M>(&found, gradient, at);
-    }
-}
-
-kernel! {
-    PencilGradient<'a, 'b> { factors: &'a [&'a [Batch]], gradient: BatchGradient<'b> },
-    m, (q, u, b), at, V => {
-        let [left, acceleration, velocity, position] = [0, 1, 2, 3].map(#[inline(always)] |k| load(factors[k], at));
-        let (l, x) = (&left, (&acceleration, &velocity, &position));
-        let found = if const { V::WIDTH > 1 } {
-            m.pencil_gradient_inlined(q, u, b, l, x.0, x.1, x.2)
-        } else {
-            m.pencil_gradient(q, u, b, l, x.0, x.1, x.2)
-        };
-        store_gradient::<V, M>(&found, gradient, at);
-    }
-}
-kernel! {
-    ForcedGradient<'a, 'b> { factors: &'a [&'a [Batch]], gradient: BatchGradient<'b> },
-    m, (q, u, b), at, V => {
-        let [acceleration, velocity, position, cosine, sine] =
-            [1, 2, 3, 5, 6].map(#[inline(always)] |k| load(factors[k], at));
-        let [output, direct_cosine, direct_sine] = [0, 7, 8].map(#[inline(always)] |k| load(factors[k], at));
-        let [share, frequency] = [4, 9].map(#[inline(always)] |k| load(factors[k], at));
-        let (a, v, x) = (&acceleration, &velocity, &position);
-        let (c, s, dc, ds) = (&cosine, &sine, &direct_cosine, &direct_sine);
-        let found = if const { V::WIDTH > 1 } {
-            m.forced_gradient_inlined(q, u, b, &output, a, v, x, &share, c, s, dc, ds, &frequency)
-        } else {
-            m.forced_gradient(q, u, b, &output, a, v, x, &share, c, s, dc, ds, &frequency)
-        };
-        store_gradient::<V, M>(&found, gradient, at);
-    }
-}
-
 /// [`Kernels::evaluate_batch`](super::Kernels::evaluate_batch) of a compiled mechanism: in vectors the two gradients that
 /// forced vibration takes by the dozen, lane by lane everything else.
 pub(super) fn evaluate_batch<M: Mechanism>(
     mechanism: &M,
-    kernel: super::Kernel,
+    kernel: Kernel,
     arguments: &[&[Batch]],
     results: &mut [&mut [Batch]],
 ) {
-    if const { forced_in_vectors::<M>() }
-        && let [coordinates, inputs, design] = &mut *results
-    {
-        let [q, u, b] = [arguments[0], arguments[1], arguments[2]];
-        let (at, factors) = (BatchPoint { q, u, b }, &arguments[3..]);
-        let gradient = BatchGradient { coordinates, inputs, design };
+    if const { forced_in_vectors::<M>() } {
         let instructions = Instructions::best();
         match kernel {
-            super::Kernel::PencilGradient => {
-                return instructions.run(Call { mechanism, at: &at, kernel: PencilGradient { factors, gradient } });
+            Kernel::PencilGradient => {
+                return lanes::evaluate(lanes::PencilGradient, mechanism, instructions, arguments, results);
             }
-            super::Kernel::ForcedGradient => {
-                return instructions.run(Call { mechanism, at: &at, kernel: ForcedGradient { factors, gradient } });
+            Kernel::ForcedGradient => {
+                return lanes::evaluate(lanes::ForcedGradient, mechanism, instructions, arguments, results);
             }
             _ => {}
         }
@@ -353,21 +155,13 @@ pub(super) fn evaluate_batch<M: Mechanism>(
 const SHORT: usize = 2000;
 
 const fn forced_in_vectors<M: Mechanism>() -> bool {
-    let description = const { &M::DESCRIPTION };
     M::Excitations::<f64>::LEN > 0
-        && is_short(description, "pencil_gradient")
-        && is_short(description, "forced_gradient")
-}
-
-const fn is_short(description: &Description, kernel: &str) -> bool {
-    match description.static_kernel(kernel) {
-        Some(kernel) => kernel.operations <= SHORT,
-        None => false,
-    }
+        && operations::<M>("pencil_gradient") <= SHORT
+        && operations::<M>("forced_gradient") <= SHORT
 }
 
 /// Evaluates a kernel of plain numbers for each lane.
-pub(super) fn lane_by_lane(
+pub fn lane_by_lane(
     arguments: &[&[Batch]],
     results: &mut [&mut [Batch]],
     mut evaluate: impl FnMut(&[&[f64]], &mut [&mut [f64]]),
@@ -395,21 +189,19 @@ const fn pays<M: Mechanism>() -> bool {
     M::Coordinates::<f64>::LEN <= 16 && conservative
 }
 
-/// Runs a kernel. If vectors do not pay, or the compiler did not generate the kernel and so there is no inlined form,
-/// it is called state by state.
+/// Evaluates a kernel, state by state if vectors do not pay.
 #[inline]
-fn run<M: Mechanism>(
+fn evaluate<K: LaneKernel, M: Mechanism>(
+    kernel: K,
     mechanism: &M,
     instructions: Instructions,
-    at: BatchPoint<'_>,
-    generated: bool,
-    kernel: impl Kernel<M>,
+    arguments: &[&[Batch]],
+    results: &mut [&mut [Batch]],
 ) {
-    let call = Call { mechanism, at: &at, kernel };
-    if const { pays::<M>() } && generated {
-        instructions.run(call);
+    if const { pays::<M>() } {
+        lanes::evaluate(kernel, mechanism, instructions, arguments, results);
     } else {
-        call.run::<f64>();
+        lanes::one_by_one(kernel, mechanism, arguments, results);
     }
 }
 
@@ -417,34 +209,18 @@ impl<M: Mechanism> BatchKernels for M {
     fn evaluate_states(
         &self,
         instructions: Instructions,
-        kernel: super::Kernel,
+        kernel: Kernel,
         arguments: &[&[Batch]],
         results: &mut [&mut [Batch]],
     ) {
-        use super::Kernel::{Linear, ModeGradient, ResidualAndStiffness, ResidualGradient};
-        let at = BatchPoint { q: arguments[0], u: arguments[1], b: arguments[2] };
-        match (kernel, results) {
-            (ResidualAndStiffness, [residual, stiffness]) => {
-                let generated = const { generated(const { &M::DESCRIPTION }, "residual_and_stiffness") };
-                run(self, instructions, at, generated, ResidualAndStiffnessTask { residual, stiffness });
+        match kernel {
+            Kernel::ResidualAndStiffness => {
+                evaluate(lanes::ResidualAndStiffness, self, instructions, arguments, results);
             }
-            (Linear, [mass, damping, stiffness]) => {
-                let generated = const { generated(const { &M::DESCRIPTION }, "linear") };
-                let linear = &mut BatchLinear { mass, damping, stiffness };
-                run(self, instructions, at, generated, LinearTask { linear });
-            }
-            (ModeGradient, [coordinates, inputs, design]) => {
-                let generated = const { generated(const { &M::DESCRIPTION }, "mode_gradient") };
-                let gradient = &mut BatchGradient { coordinates, inputs, design };
-                let (phi, lambda) = (arguments[3], &arguments[4][0]);
-                run(self, instructions, at, generated, ModeGradientTask { phi, lambda, gradient });
-            }
-            (ResidualGradient, [coordinates, inputs, design]) => {
-                let generated = const { generated(const { &M::DESCRIPTION }, "residual_gradient") };
-                let gradient = &mut BatchGradient { coordinates, inputs, design };
-                run(self, instructions, at, generated, ResidualGradientTask { w: arguments[3], gradient });
-            }
-            (_, results) => lane_by_lane(arguments, results, |arguments, results| {
+            Kernel::Linear => evaluate(lanes::Linear, self, instructions, arguments, results),
+            Kernel::ModeGradient => evaluate(lanes::ModeGradient, self, instructions, arguments, results),
+            Kernel::ResidualGradient => evaluate(lanes::ResidualGradient, self, instructions, arguments, results),
+            _ => lane_by_lane(arguments, results, |arguments, results| {
                 self.evaluate(kernel, arguments, results);
             }),
         }
@@ -457,8 +233,9 @@ impl<M: Mechanism> BatchKernels for M {
         parts: &mut BatchParts<'_>,
         linear: &mut BatchLinear<'_>,
     ) {
-        let generated = const { generated(const { &M::DESCRIPTION }, "linear") };
-        run(self, instructions, at, generated, PartsAndLinear { parts, linear });
+        let [mass, damping, stiffness] = linear_results(linear);
+        let results = &mut [&mut *parts.inertia, &mut *parts.applied, mass, damping, stiffness];
+        evaluate(lanes::PartsAndLinear, self, instructions, &at.lists(), results);
     }
 
     fn partials_batch(
@@ -466,18 +243,12 @@ impl<M: Mechanism> BatchKernels for M {
         instructions: Instructions,
         at: BatchPoint<'_>,
         matrices: &mut BatchPartials<'_>,
-        residual: [&mut [Batch]; 2],
+        [by_input, by_design]: [&mut [Batch]; 2],
     ) {
-        let generated = const { generated(const { &M::DESCRIPTION }, "linear_partials") };
-        run(self, instructions, at, generated, Partials { matrices, residual });
+        let [m0, c0, k0] = linear_results(&mut matrices.by_coordinate);
+        let [m1, c1, k1] = linear_results(&mut matrices.by_input);
+        let [m2, c2, k2] = linear_results(&mut matrices.by_design);
+        let results = &mut [m0, c0, k0, m1, c1, k1, m2, c2, k2, by_input, by_design];
+        evaluate(lanes::Partials, self, instructions, &at.lists(), results);
     }
-}
-
-const fn damped(description: &Description) -> bool {
-    !matches!(description.damping, DampingKind::Zero)
-}
-
-/// Whether the compiler generated this kernel.
-const fn generated(description: &Description, kernel: &str) -> bool {
-    description.static_kernel(kernel).is_some()
 }

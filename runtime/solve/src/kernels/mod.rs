@@ -16,7 +16,9 @@
 //! `Kernels`, an object-safe table over slices, which every `Mechanism` gets from one blanket implementation
 //! (`kernels/compiled.rs`) and an interpreted mechanism by interpretation. Five tables let a program compile only the
 //! kernels its questions need: `Kernels` for one state, `DirectionalKernels` in dual numbers for second derivatives,
-//! `BatchKernels` at eight states at once, `MotionKernels` for the nonlinear motion, `PictureKernels` for pictures.
+//! `BatchKernels` at eight states at once, `MotionKernels` for the nonlinear motion, `PictureKernels` for pictures. What a
+//! table has is compiled with it, and rustc takes three times as long for vectors: at eight states, kernels that no solver
+//! needs are types, of which a program compiles those that it names ([`lanes`]); tables take theirs from there.
 //! What a kernel takes and returns is a row of `kernels/table.rs`; each table evaluates its rows by one method, from which
 //! the typed ones follow.
 //! `Study<M>` and the typed handles are a thin generic shell; everything behind it is compiled once, in the library.
@@ -28,12 +30,15 @@ mod curvature;
 mod deviating_inputs;
 mod directional;
 mod interval;
+pub mod lanes;
 mod motion;
 mod partial_matrices;
 mod picture;
 mod summary;
 mod table;
 
+#[doc(hidden)]
+pub use batch::lane_by_lane;
 pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
 pub use curvature::CurvatureKernels;

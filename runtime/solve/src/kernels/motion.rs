@@ -1,12 +1,22 @@
 //! The kernels of nonlinear motion.
 
+use super::batch::lane_by_lane;
 use super::{DirectionalKernels, Linear, MotionKernel, linear_results};
 use crate::algebra::{Matrix, Vector};
+use crate::scalar::Batch;
 
 /// The equations of motion and their linearisation along any motion.
 pub trait MotionKernels: DirectionalKernels {
     /// Evaluates a kernel, as [`Kernels::evaluate`](super::Kernels::evaluate).
     fn evaluate_motion(&self, kernel: MotionKernel, arguments: &[&[f64]], results: &mut [&mut [f64]]);
+
+    /// [`Self::evaluate_motion`] with [`WIDTH`](crate::scalar::WIDTH) sets of arguments, one in each lane. A compiled
+    /// mechanism takes one after the other, as [`lanes`](super::lanes) takes rustc longer.
+    fn evaluate_motion_batch(&self, kernel: MotionKernel, arguments: &[&[Batch]], results: &mut [&mut [Batch]]) {
+        lane_by_lane(arguments, results, |arguments, results| {
+            self.evaluate_motion(kernel, arguments, results);
+        });
+    }
 
     /// [`Mechanism::motion_residual`](eigentol_contract::Mechanism::motion_residual).
     fn motion_residual_into(
