@@ -19,12 +19,12 @@ impl Block<'_> {
             self.coordinates.len(),
             #[inline(always)]
             |n| {
-                read(n, self.coordinates, lane, &mut state.coordinates);
-                read(n, self.residual, lane, &mut state.residual);
+                read_of(n, self.coordinates, lane, &mut state.coordinates);
+                read_of(n, self.residual, lane, &mut state.residual);
                 let mass = state.linear.mass.as_flattened_mut();
-                read(n * n, self.linear.mass, lane, mass);
+                read_of(n * n, self.linear.mass, lane, mass);
                 let stiffness = state.linear.stiffness.as_flattened_mut();
-                read(n * n, self.linear.stiffness, lane, stiffness);
+                read_of(n * n, self.linear.stiffness, lane, stiffness);
             },
         );
         state.stability = Stability::Stable;
@@ -61,11 +61,17 @@ impl Block<'_> {
     /// Writes the derivatives of these modes.
     pub fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         let (inputs, design) = (self.inputs.len(), self.design.len());
-        for (r, (sensitivity, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
-            let [by_input, by_design] = sensitivity.make_undamped(mode, inputs, design);
-            read(inputs, &self.by_input[r * inputs..], lane, by_input);
-            read(design, &self.by_design[r * design..], lane, by_design);
-        }
+        for_size(
+            design,
+            #[inline(always)]
+            |design| {
+                for (r, (sensitivity, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
+                    let [by_input, by_design] = sensitivity.make_undamped(mode, inputs, design);
+                    read(inputs, &self.by_input[r * inputs..], lane, by_input);
+                    read_of(design, &self.by_design[r * design..], lane, by_design);
+                }
+            },
+        );
     }
 }
 
@@ -79,15 +85,18 @@ fn of(batches: &[Batch], lane: usize) -> impl ExactSizeIterator<Item = f64> + Cl
 /// Reads the first numbers of a lane.
 #[inline(always)]
 fn read(count: usize, from: &[Batch], lane: usize, to: &mut [f64]) {
-    let lane = lane % WIDTH;
-    let (from, to) = (&from[..count], &mut to[..count]);
     for_size(
         count,
         #[inline(always)]
-        |count| {
-            for k in 0..count {
-                to[k] = from[k].0[lane];
-            }
-        },
+        |count| read_of(count, from, lane, to),
     );
+}
+
+/// The same for a number of them that may be constant; see [`for_size`].
+#[inline(always)]
+fn read_of(count: usize, from: &[Batch], lane: usize, to: &mut [f64]) {
+    let (lane, from, to) = (lane % WIDTH, &from[..count], &mut to[..count]);
+    for k in 0..count {
+        to[k] = from[k].0[lane];
+    }
 }
