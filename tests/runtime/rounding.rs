@@ -176,6 +176,9 @@ fn at_its_critical_speed_a_pendulum_is_neutral() {
                 let neutral = found.modes.iter().map(|mode| mode.behaviour);
                 assert!(neutral.eq([Behaviour::Neutral]), "{start} {places} {found}");
             }
+            if places % 3 != 0 {
+                continue;
+            }
             let summary = study.summary().unwrap();
             assert_eq!(summary.first.distance_to_critical, 0.0);
             let doubts = &summary.trust[0].doubts;

@@ -273,8 +273,8 @@ fn what_never_ends() {
         ("mechanism A { body b: rod(mass: 3 kg;\n }", "this `(` is never closed\n --> standard input:1:26"),
         ("mechanism A {\n /* b }", "this `/*` is never closed\n --> standard input:2:2"),
         (
-            &format!("mechanism A {{ let a = 3{} }}", "0".repeat(100_000)),
-            "this number has 100001 characters; 400 are the most",
+            &format!("mechanism A {{ let a = 3{} }}", "0".repeat(5_000)),
+            "this number has 5001 characters; 400 are the most",
         ),
     ] {
         let Run { code, err, .. } = run_with_input(&["check", "-"], text);
