@@ -6,7 +6,7 @@ use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_w
 
 /// A run that fails with this exit code and message and prints no answer.
 #[track_caller]
-fn refused(arguments: &[&str], expected: i32, parts: &[&str]) {
+pub(crate) fn refused(arguments: &[&str], expected: i32, parts: &[&str]) {
     let Run { code, out, err } = run(arguments);
     assert_eq!((code, out.as_str()), (expected, ""), "{arguments:?}: {err}");
     for part in parts {
