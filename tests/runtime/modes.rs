@@ -3,6 +3,7 @@
 use crate::common::chain::DOUBLE;
 use crate::common::close;
 use crate::common::derived::Derived;
+use crate::common::description;
 use crate::common::models::{Plate, Spring};
 use crate::common::pendulum::Pendulum;
 use eigentol::equilibrium::equilibrium;
@@ -11,26 +12,7 @@ use eigentol::modes::{clusters, match_modes, modes, undamped_modes};
 use eigentol::{Behaviour, DampingKind, Description, Error, Family, Matrix, Mode, Modes, Policy, Shared, Vector};
 use proptest::prelude::*;
 
-static ANY: Shared<Description> = Shared::Static(&Description {
-    name: Shared::Static("Any"),
-    coordinates: Shared::Static(&[]),
-    inputs: Shared::Static(&[]),
-    design: Shared::Static(&[]),
-    excitations: Shared::Static(&[]),
-    outputs: Shared::Static(&[]),
-    symmetric_stiffness: true,
-    free_directions: 0,
-    held: Shared::Static(&[]),
-    length: 1.0,
-    frequency: eigentol::Unit::si("rad/s"),
-    resolved_modes: None,
-    correlations: eigentol::Shared::Static(&[]),
-    rings: eigentol::Shared::Static(&[]),
-    spans: eigentol::Shared::Static(&[]),
-    harmonics: eigentol::Shared::Static(&[]),
-    damping: DampingKind::Zero,
-    kernels: Shared::Static(&[]),
-});
+static ANY: Shared<Description> = Shared::Static(&description!("Any", &[], &[], &[], true, DampingKind::Zero));
 
 fn pencil(stiffness: impl Into<Matrix>, mass: impl Into<Matrix>) -> Linear {
     let (stiffness, mass) = (stiffness.into(), mass.into());

@@ -14,7 +14,7 @@ use eigentol_interpreter::Interpreted;
 use crate::common::derived::{Derived, Model};
 use crate::common::models::Plate;
 use crate::common::pendulum::W;
-use crate::common::{METRE, STIFFNESS, close, coordinate, design, sizes};
+use crate::common::{METRE, STIFFNESS, close, coordinate, description, design, sizes};
 
 const BAR: &str = "
     mechanism Bar {
@@ -113,30 +113,14 @@ struct Chain;
 impl Model for Chain {
     sizes!(3, 0, 3, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Chain"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE)]),
-        inputs: Shared::Static(&[]),
-        design: Shared::Static(&[
-            design("k1", STIFFNESS, 1.0, 0.0),
-            design("k2", STIFFNESS, 1.0, 0.0),
-            design("g", STIFFNESS, 0.0, 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Chain",
+        &[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE)],
+        &[],
+        &[design("k1", STIFFNESS, 1.0, 0.0), design("k2", STIFFNESS, 1.0, 0.0), design("g", STIFFNESS, 0.0, 0.0),],
+        true,
+        DampingKind::Zero
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 3], _: &[T; 3], _: &[T; 3], _: &[T; 0], _: &[T; 3]) -> [T; 3] {
         [a[0], T::constant(2.0) * a[1], T::constant(3.0) * a[2]]
@@ -175,6 +159,9 @@ fn at_its_critical_speed_a_pendulum_is_neutral() {
                 let found = study.clone().family(family).modes().unwrap();
                 let neutral = found.modes.iter().map(|mode| mode.behaviour);
                 assert!(neutral.eq([Behaviour::Neutral]), "{start} {places} {found}");
+            }
+            if places % 3 != 0 {
+                continue;
             }
             let summary = study.summary().unwrap();
             assert_eq!(summary.first.distance_to_critical, 0.0);

@@ -316,8 +316,8 @@ fn samples_that_fail_are_what_they_are_alone() {
 #[test]
 fn near_a_critical_state() {
     let critical = (1.5_f64 * 9.81).sqrt();
-    for factor in [0.97, 0.999, 0.9999, 1.0001, 1.001, 1.03] {
-        for width in [0.001, 0.01, 0.05] {
+    for factor in [0.97, 0.9999, 1.0001, 1.03] {
+        for width in [0.001, 0.05] {
             let tolerances = Tolerances::new([0.0, width], 3.0, None).expect("valid");
             let (counts, _) = compare(&Pendulum, factor * critical, &[0.3], &tolerances);
             assert_eq!(counts.stable, 1003, "{factor} {width}");

@@ -1,12 +1,12 @@
 //! Directional derivatives of equal eigenvalues against closed forms, and what reports say about single-mode
 //! derivatives.
 
-use eigentol::{DampingKind, Description, Error, Family, Real, Shared, Study, Violation, mechanism};
+use eigentol::{DampingKind, Description, Error, Family, Real, Study, Violation, mechanism};
 
 use super::within;
 use crate::common::derived::{Derived, Model};
 use crate::common::models::{Follower, Pair};
-use crate::common::{METRE, NUMBER, STIFFNESS, coordinate, design, sizes};
+use crate::common::{METRE, NUMBER, STIFFNESS, coordinate, description, design, sizes};
 
 mechanism! {
     /// A disc in a bearing as stiff in `x` as in `y`, with a strut at an angle that is not there yet.
@@ -34,30 +34,14 @@ struct Twins;
 impl Model for Twins {
     sizes!(2, 0, 3, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Twins"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
-        inputs: Shared::Static(&[]),
-        design: Shared::Static(&[
-            design("c", STIFFNESS, 0.0, 1.0),
-            design("f", STIFFNESS, 0.0, 1.0),
-            design("d", NUMBER, 0.0, 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: false,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Twins",
+        &[coordinate("x", METRE), coordinate("y", METRE)],
+        &[],
+        &[design("c", STIFFNESS, 0.0, 1.0), design("f", STIFFNESS, 0.0, 1.0), design("d", NUMBER, 0.0, 0.0),],
+        false,
+        DampingKind::General
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 0], _: &[T; 3]) -> [T; 2] {
         *a

@@ -83,7 +83,7 @@ fn at_the_critical_speed_sampling_is_what_to_use() {
     let exact = (moment(2) - moment(1).powi(2)).sqrt();
     close(exact, 0.1745, 1e-3);
     let study = Study::new(Pendulum).input(OMEGA, speed).start(Coordinate::new(0), 1.0).tolerance(LENGTH, 0.03);
-    let sampled = study.clone().samples(40_000).monte_carlo().unwrap();
+    let sampled = study.clone().samples(15_000).monte_carlo().unwrap();
     let sigma = sampled.modes[0].as_ref().unwrap().sigma.unwrap();
     close(sigma, exact, 0.02);
     let summary = study.summary().unwrap();

@@ -1,9 +1,9 @@
 //! Mechanisms whose equilibrium branches have closed forms. Unit masses; each description gives `g`.
 
-use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared, Violation};
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Violation};
 
 use super::derived::Model;
-use super::{METRE, NUMBER, RAD, coordinate, design, input};
+use super::{METRE, NUMBER, RAD, coordinate, description, design, input};
 
 /// A mechanism of unit masses under a force law.
 macro_rules! law {
@@ -22,26 +22,7 @@ macro_rules! law {
                 const COORDINATES: [CoordinateInfo; $n] = [COORDINATE; $n];
                 const INPUTS: [InputInfo; 1] = [input("u", NUMBER)];
                 const DESIGN: [DesignInfo; $p] = [$(design($design, NUMBER, $nominal, 0.0)),*];
-                Description {
-                    name: Shared::Static(stringify!($name)),
-                    coordinates: Shared::Static(&COORDINATES),
-                    inputs: Shared::Static(&INPUTS),
-                    design: Shared::Static(&DESIGN),
-                    excitations: Shared::Static(&[]),
-                    outputs: Shared::Static(&[]),
-                    symmetric_stiffness: $symmetric,
-                    free_directions: 0,
-                    held: Shared::Static(&[]),
-                    length: 1.0,
-                    frequency: eigentol::Unit::si("rad/s"),
-                    resolved_modes: None,
-                    correlations: eigentol::Shared::Static(&[]),
-                    rings: eigentol::Shared::Static(&[]),
-                    spans: eigentol::Shared::Static(&[]),
-                    harmonics: eigentol::Shared::Static(&[]),
-                    damping: DampingKind::Zero,
-                    kernels: Shared::Static(&[]),
-                }
+                description!(stringify!($name), &COORDINATES, &INPUTS, &DESIGN, $symmetric, DampingKind::Zero)
             };
 
             fn inertia<T: Real>(

@@ -10,7 +10,7 @@ use std::array::from_fn;
 use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, OutputInfo, Real, Shared, Violation};
 
 use super::derived::{Derived, Model};
-use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, design, input, positive};
+use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, description, design, input, positive};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars<const N: usize>;
@@ -39,26 +39,15 @@ macro_rules! chain {
             const DESCRIPTION: Description = {
                 const COORDINATES: [CoordinateInfo; $n] = $coordinates;
                 const DESIGN: [DesignInfo; $p] = $design;
-                Description {
-                    name: Shared::Static("Bars"),
-                    coordinates: Shared::Static(&COORDINATES),
-                    inputs: Shared::Static(&[input("omega", SPEED)]),
-                    design: Shared::Static(&DESIGN),
-                    excitations: Shared::Static(&[]),
-                    outputs: Shared::Static(&[OutputInfo { name: Shared::Static("tip_radius"), unit: METRE }]),
-                    symmetric_stiffness: true,
-                    free_directions: 0,
-                    held: Shared::Static(&[]),
-                    length: 1.0,
-                    frequency: eigentol::Unit::si("rad/s"),
-                    resolved_modes: None,
-                    correlations: eigentol::Shared::Static(&[]),
-                    rings: eigentol::Shared::Static(&[]),
-                    spans: eigentol::Shared::Static(&[]),
-                    harmonics: eigentol::Shared::Static(&[]),
-                    damping: DampingKind::Zero,
-                    kernels: Shared::Static(&[]),
-                }
+                description!(
+                    "Bars",
+                    &COORDINATES,
+                    &[input("omega", SPEED)],
+                    &DESIGN,
+                    true,
+                    DampingKind::Zero,
+                    &[OutputInfo { name: Shared::Static("tip_radius"), unit: METRE }]
+                )
             };
 
             fn inertia<T: Real>(

@@ -16,6 +16,37 @@ macro_rules! sizes {
 }
 pub(crate) use sizes;
 
+/// A description in SI that has nothing of the kinds it does not name: name, coordinates, inputs, design variables, symmetry of the
+/// stiffness, damping, and outputs if there are any.
+macro_rules! description {
+    ($name:expr, $coordinates:expr, $inputs:expr, $design:expr, $symmetric:expr, $damping:expr $(,)?) => {
+        description!($name, $coordinates, $inputs, $design, $symmetric, $damping, &[])
+    };
+    ($name:expr, $coordinates:expr, $inputs:expr, $design:expr, $symmetric:expr, $damping:expr, $outputs:expr $(,)?) => {
+        eigentol::Description {
+            name: eigentol::Shared::Static($name),
+            coordinates: eigentol::Shared::Static($coordinates),
+            inputs: eigentol::Shared::Static($inputs),
+            design: eigentol::Shared::Static($design),
+            excitations: eigentol::Shared::Static(&[]),
+            outputs: eigentol::Shared::Static($outputs),
+            symmetric_stiffness: $symmetric,
+            free_directions: 0,
+            held: eigentol::Shared::Static(&[]),
+            length: 1.0,
+            frequency: eigentol::Unit::si("rad/s"),
+            resolved_modes: None,
+            correlations: eigentol::Shared::Static(&[]),
+            rings: eigentol::Shared::Static(&[]),
+            spans: eigentol::Shared::Static(&[]),
+            harmonics: eigentol::Shared::Static(&[]),
+            damping: $damping,
+            kernels: eigentol::Shared::Static(&[]),
+        }
+    };
+}
+pub(crate) use description;
+
 pub mod branching;
 pub mod chain;
 pub mod derived;

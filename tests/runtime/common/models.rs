@@ -1,9 +1,9 @@
 //! Small mechanisms, each testing one feature.
 
-use eigentol::{DampingKind, Description, Real, Shared, Violation};
+use eigentol::{DampingKind, Description, Real, Violation};
 
 use super::derived::Model;
-use super::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, positive};
+use super::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, description, design, input, positive};
 
 /// A point mass on two perpendicular sliders on a spinning plate: gyroscopic `Chat`, shifted equilibrium
 /// `x* = kx x0 / (kx - m Omega^2)`. Springs rest at `x0 = 0.1 m`, `y0 = 0.02 m`. Design: `m`, `kx`, `ky`, `c`.
@@ -13,31 +13,19 @@ pub struct Plate;
 impl Model for Plate {
     sizes!(2, 1, 4, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Plate"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
-        inputs: Shared::Static(&[input("omega", SPEED)]),
-        design: Shared::Static(&[
+    const DESCRIPTION: Description = description!(
+        "Plate",
+        &[coordinate("x", METRE), coordinate("y", METRE)],
+        &[input("omega", SPEED)],
+        &[
             design("m", KILOGRAM, 0.5, 0.01),
             design("kx", STIFFNESS, 40.0, 1.2),
             design("ky", STIFFNESS, 60.0, 1.8),
             design("c", NUMBER, 0.0, 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    };
+        ],
+        true,
+        DampingKind::General
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 4]) -> [T; 2] {
         let two = T::constant(2.0);
@@ -62,30 +50,14 @@ pub struct Spring;
 impl Model for Spring {
     sizes!(1, 1, 3, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Spring"),
-        coordinates: Shared::Static(&[coordinate("x", METRE)]),
-        inputs: Shared::Static(&[input("k", STIFFNESS)]),
-        design: Shared::Static(&[
-            design("mass", KILOGRAM, 1.0, 0.0),
-            design("cubic", NUMBER, 0.0, 0.0),
-            design("force", NUMBER, 1.0, 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Spring",
+        &[coordinate("x", METRE)],
+        &[input("k", STIFFNESS)],
+        &[design("mass", KILOGRAM, 1.0, 0.0), design("cubic", NUMBER, 0.0, 0.0), design("force", NUMBER, 1.0, 0.0),],
+        true,
+        DampingKind::Zero
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 1], b: &[T; 3]) -> [T; 1] {
         [b[0] * a[0]]
@@ -103,26 +75,14 @@ pub struct Follower;
 impl Model for Follower {
     sizes!(2, 1, 1, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Follower"),
-        coordinates: Shared::Static(&[coordinate("a", RAD), coordinate("b", RAD)]),
-        inputs: Shared::Static(&[input("load", NUMBER)]),
-        design: Shared::Static(&[design("stiffness", NUMBER, 1.0, 0.01)]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: false,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Follower",
+        &[coordinate("a", RAD), coordinate("b", RAD)],
+        &[input("load", NUMBER)],
+        &[design("stiffness", NUMBER, 1.0, 0.01)],
+        false,
+        DampingKind::Zero
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 1]) -> [T; 2] {
         [T::constant(3.0) * a[0] + a[1], a[0] + a[1]]
@@ -145,30 +105,14 @@ pub struct Pair;
 impl Model for Pair {
     sizes!(2, 0, 3, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Pair"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
-        inputs: Shared::Static(&[]),
-        design: Shared::Static(&[
-            design("k1", STIFFNESS, 100.0, 0.0),
-            design("k2", STIFFNESS, 100.0, 0.0),
-            design("c", STIFFNESS, 0.0, 3.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Pair",
+        &[coordinate("x", METRE), coordinate("y", METRE)],
+        &[],
+        &[design("k1", STIFFNESS, 100.0, 0.0), design("k2", STIFFNESS, 100.0, 0.0), design("c", STIFFNESS, 0.0, 3.0),],
+        true,
+        DampingKind::Zero
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 0], _: &[T; 3]) -> [T; 2] {
         *a
@@ -186,33 +130,21 @@ pub struct Triple;
 impl Model for Triple {
     sizes!(3, 0, 6, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Triple"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE)]),
-        inputs: Shared::Static(&[]),
-        design: Shared::Static(&[
+    const DESCRIPTION: Description = description!(
+        "Triple",
+        &[coordinate("x", METRE), coordinate("y", METRE), coordinate("z", METRE)],
+        &[],
+        &[
             design("k1", STIFFNESS, 100.0, 3.0),
             design("k2", STIFFNESS, 100.0, 3.0),
             design("k3", STIFFNESS, 100.0, 3.0),
             design("k12", STIFFNESS, 0.0, 0.0),
             design("k13", STIFFNESS, 0.0, 0.0),
             design("k23", STIFFNESS, 0.0, 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    };
+        ],
+        true,
+        DampingKind::Zero
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 3], _: &[T; 3], _: &[T; 3], _: &[T; 0], _: &[T; 6]) -> [T; 3] {
         *a
@@ -236,30 +168,14 @@ pub struct Slipping;
 impl Model for Slipping {
     sizes!(2, 1, 3, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Slipping"),
-        coordinates: Shared::Static(&[coordinate("r", METRE), coordinate("phi", RAD)]),
-        inputs: Shared::Static(&[input("omega", SPEED)]),
-        design: Shared::Static(&[
-            design("m", KILOGRAM, 1.0, 0.0),
-            design("k", STIFFNESS, 10.0, 0.0),
-            design("a", METRE, 0.2, 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Gyroscopic,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Slipping",
+        &[coordinate("r", METRE), coordinate("phi", RAD)],
+        &[input("omega", SPEED)],
+        &[design("m", KILOGRAM, 1.0, 0.0), design("k", STIFFNESS, 10.0, 0.0), design("a", METRE, 0.2, 0.0),],
+        true,
+        DampingKind::Gyroscopic
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 3]) -> [T; 2] {
         let speed = u[0] + v[1];
@@ -281,26 +197,14 @@ pub struct Supercritical;
 impl Model for Supercritical {
     sizes!(2, 1, 1, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Supercritical"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
-        inputs: Shared::Static(&[input("omega", SPEED)]),
-        design: Shared::Static(&[design("e", METRE, 0.0, 0.03)]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Gyroscopic,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Supercritical",
+        &[coordinate("x", METRE), coordinate("y", METRE)],
+        &[input("omega", SPEED)],
+        &[design("e", METRE, 0.0, 0.03)],
+        true,
+        DampingKind::Gyroscopic
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], v: &[T; 2], q: &[T; 2], u: &[T; 1], _: &[T; 1]) -> [T; 2] {
         let (two, square) = (T::constant(2.0), u[0] * u[0]);
@@ -321,26 +225,14 @@ pub struct Overdamped;
 impl Model for Overdamped {
     sizes!(2, 1, 0, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Overdamped"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
-        inputs: Shared::Static(&[input("u", NUMBER)]),
-        design: Shared::Static(&[]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Overdamped",
+        &[coordinate("x", METRE), coordinate("y", METRE)],
+        &[input("u", NUMBER)],
+        &[],
+        true,
+        DampingKind::General
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 2], _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 0]) -> [T; 2] {
         *a

@@ -7,7 +7,7 @@ use eigentol::{
 };
 
 use super::dual::Dual;
-use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, design, input, positive};
+use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, description, design, input, positive};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pendulum;
@@ -44,26 +44,15 @@ impl Mechanism for Pendulum {
     sizes!(1, 1, 2, 1);
     type Picture<T: Copy> = [T; 0];
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Pendulum"),
-        coordinates: Shared::Static(&[coordinate("theta", RAD)]),
-        inputs: Shared::Static(&[input("omega", SPEED)]),
-        design: Shared::Static(&[design("m", KILOGRAM, 3.0, 0.0), design("l", METRE, 1.0, 0.03)]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[OutputInfo { name: Shared::Static("tip_radius"), unit: METRE }]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Pendulum",
+        &[coordinate("theta", RAD)],
+        &[input("omega", SPEED)],
+        &[design("m", KILOGRAM, 3.0, 0.0), design("l", METRE, 1.0, 0.03)],
+        true,
+        DampingKind::Zero,
+        &[OutputInfo { name: Shared::Static("tip_radius"), unit: METRE }]
+    );
 
     fn residual<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> [T; 1] {
         let parts = self.residual_parts(q, u, b);

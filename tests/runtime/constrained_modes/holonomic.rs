@@ -1,10 +1,10 @@
 //! Mechanisms with position constraints, each paired with a version in minimal coordinates that has the same inputs and
 //! design variables.
 
-use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared};
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real};
 
 use crate::common::derived::Model;
-use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes};
+use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, description, design, input, sizes};
 use crate::constrained_modes::{FORCE, reaction};
 
 pub(crate) const OMEGA: &[InputInfo] = &[input("omega", SPEED)];
@@ -17,26 +17,7 @@ const fn described(
     design: &'static [DesignInfo],
     damping: DampingKind,
 ) -> Description {
-    Description {
-        name: Shared::Static(name),
-        coordinates: Shared::Static(coordinates),
-        inputs: Shared::Static(OMEGA),
-        design: Shared::Static(design),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping,
-        kernels: Shared::Static(&[]),
-    }
+    description!(name, coordinates, OMEGA, design, true, damping)
 }
 
 /// The paper's bar in the vertical plane of a spinning shaft, described by the position `x` (radial), `z` (down) of its

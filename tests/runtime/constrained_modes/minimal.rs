@@ -149,10 +149,10 @@ fn a_length_stated_twice_or_thrice_changes_nothing() {
 
 /// Two lengths that agree only at the nominal design.
 mod contradictory {
-    use eigentol::{DampingKind, Description, Real, Shared};
+    use eigentol::{DampingKind, Description, Real};
 
     use crate::common::derived::Model;
-    use crate::common::{METRE, SPEED, coordinate, design, input, sizes};
+    use crate::common::{METRE, SPEED, coordinate, description, design, input, sizes};
     use crate::constrained_modes::{FORCE, reaction};
 
     #[derive(Clone, Copy, Debug)]
@@ -161,31 +161,14 @@ mod contradictory {
     impl Model for Twice {
         sizes!(4, 1, 2, 0);
 
-        const DESCRIPTION: Description = Description {
-            name: Shared::Static("Twice"),
-            coordinates: Shared::Static(&[
-                coordinate("x", METRE),
-                coordinate("z", METRE),
-                reaction("rod", FORCE),
-                reaction("wire", FORCE),
-            ]),
-            inputs: Shared::Static(&[input("omega", SPEED)]),
-            design: Shared::Static(&[design("rod_length", METRE, 1.0, 0.01), design("wire_length", METRE, 1.0, 0.01)]),
-            excitations: Shared::Static(&[]),
-            outputs: Shared::Static(&[]),
-            symmetric_stiffness: true,
-            free_directions: 0,
-            held: Shared::Static(&[]),
-            length: 1.0,
-            frequency: eigentol::Unit::si("rad/s"),
-            resolved_modes: None,
-            correlations: eigentol::Shared::Static(&[]),
-            rings: eigentol::Shared::Static(&[]),
-            spans: eigentol::Shared::Static(&[]),
-            harmonics: eigentol::Shared::Static(&[]),
-            damping: DampingKind::Zero,
-            kernels: Shared::Static(&[]),
-        };
+        const DESCRIPTION: Description = description!(
+            "Twice",
+            &[coordinate("x", METRE), coordinate("z", METRE), reaction("rod", FORCE), reaction("wire", FORCE),],
+            &[input("omega", SPEED)],
+            &[design("rod_length", METRE, 1.0, 0.01), design("wire_length", METRE, 1.0, 0.01)],
+            true,
+            DampingKind::Zero
+        );
 
         fn inertia<T: Real>(&self, a: &[T; 4], _: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 2]) -> [T; 4] {
             let size = (q[0] * q[0] + q[1] * q[1]).sqrt();
@@ -212,10 +195,10 @@ fn constraints_that_agree_at_one_design_have_modes_but_no_derivatives() {
 
 /// The bar's tip held in both directions.
 pub(crate) mod held {
-    use eigentol::{DampingKind, Description, Real, Shared};
+    use eigentol::{DampingKind, Description, Real};
 
     use crate::common::derived::Model;
-    use crate::common::{METRE, SPEED, coordinate, design, input, sizes};
+    use crate::common::{METRE, SPEED, coordinate, description, design, input, sizes};
     use crate::constrained_modes::{FORCE, reaction};
 
     #[derive(Clone, Copy, Debug)]
@@ -224,31 +207,14 @@ pub(crate) mod held {
     impl Model for Held {
         sizes!(4, 1, 1, 0);
 
-        const DESCRIPTION: Description = Description {
-            name: Shared::Static("Held"),
-            coordinates: Shared::Static(&[
-                coordinate("x", METRE),
-                coordinate("z", METRE),
-                reaction("length", FORCE),
-                reaction("wall", FORCE),
-            ]),
-            inputs: Shared::Static(&[input("omega", SPEED)]),
-            design: Shared::Static(&[design("L", METRE, 1.0, 0.01)]),
-            excitations: Shared::Static(&[]),
-            outputs: Shared::Static(&[]),
-            symmetric_stiffness: true,
-            free_directions: 0,
-            held: Shared::Static(&[]),
-            length: 1.0,
-            frequency: eigentol::Unit::si("rad/s"),
-            resolved_modes: None,
-            correlations: eigentol::Shared::Static(&[]),
-            rings: eigentol::Shared::Static(&[]),
-            spans: eigentol::Shared::Static(&[]),
-            harmonics: eigentol::Shared::Static(&[]),
-            damping: DampingKind::Zero,
-            kernels: Shared::Static(&[]),
-        };
+        const DESCRIPTION: Description = description!(
+            "Held",
+            &[coordinate("x", METRE), coordinate("z", METRE), reaction("length", FORCE), reaction("wall", FORCE),],
+            &[input("omega", SPEED)],
+            &[design("L", METRE, 1.0, 0.01)],
+            true,
+            DampingKind::Zero
+        );
 
         fn inertia<T: Real>(&self, a: &[T; 4], _: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 1]) -> [T; 4] {
             let size = (q[0] * q[0] + q[1] * q[1]).sqrt();

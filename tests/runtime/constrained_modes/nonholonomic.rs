@@ -13,7 +13,7 @@ use eigentol::{
 };
 
 use crate::common::derived::{Derived, Model};
-use crate::common::{METRE, coordinate, sizes};
+use crate::common::{METRE, coordinate, description, sizes};
 use crate::constrained_modes::compare::{State, near, nominal};
 use crate::constrained_modes::holonomic::{BAR, Bar, OMEGA};
 use crate::constrained_modes::rolling::{CASTER, Caster, DRIVEN, Disk, DrivenDisk, Sleigh, Trail, rolling, speed};
@@ -329,31 +329,14 @@ struct Rated;
 impl Model for Rated {
     sizes!(4, 1, 3, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Rated"),
-        coordinates: Shared::Static(&[
-            coordinate("x", METRE),
-            coordinate("z", METRE),
-            reaction("length", FORCE),
-            rolling("rate"),
-        ]),
-        inputs: Shared::Static(OMEGA),
-        design: Shared::Static(BAR),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: false,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Rated",
+        &[coordinate("x", METRE), coordinate("z", METRE), reaction("length", FORCE), rolling("rate"),],
+        OMEGA,
+        BAR,
+        false,
+        DampingKind::General
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 4], v: &[T; 4], q: &[T; 4], u: &[T; 1], b: &[T; 3]) -> [T; 4] {
         let size = (q[0] * q[0] + q[1] * q[1]).sqrt();
@@ -386,26 +369,14 @@ fn a_constraint_stated_again_as_a_rate_changes_nothing() {
 /// A mass that slides freely beside one stopped by a dashpot: it rests anywhere, and drifts.
 #[test]
 fn a_free_mass_drifts() {
-    static DRIFT: Shared<Description> = Shared::Static(&Description {
-        name: Shared::Static("Drift"),
-        coordinates: Shared::Static(&[coordinate("x", METRE), speed("v", METRE)]),
-        inputs: Shared::Static(&[]),
-        design: Shared::Static(&[]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: false,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    });
+    static DRIFT: Shared<Description> = Shared::Static(&description!(
+        "Drift",
+        &[coordinate("x", METRE), speed("v", METRE)],
+        &[],
+        &[],
+        false,
+        DampingKind::General
+    ));
     let linear = Linear {
         mass: [[2.0, 0.0], [0.0, 0.0]].into(),
         damping: [[0.0, 0.0], [0.0, 1.0]].into(),

@@ -3,7 +3,7 @@
 use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit};
 
 use crate::common::derived::Model;
-use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes};
+use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, description, design, input, sizes};
 use crate::constrained_modes::{FORCE, reaction};
 
 const SLOW: Unit = Unit { symbol: Shared::Static("m/s"), scale: 1.0 };
@@ -23,26 +23,7 @@ const fn described(
     coordinates: &'static [CoordinateInfo],
     design: &'static [DesignInfo],
 ) -> Description {
-    Description {
-        name: Shared::Static(name),
-        coordinates: Shared::Static(coordinates),
-        inputs: Shared::Static(AT_SPEED),
-        design: Shared::Static(design),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: false,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    }
+    description!(name, coordinates, AT_SPEED, design, false, DampingKind::General)
 }
 
 macro_rules! no_forces {

@@ -2,6 +2,7 @@
 //! the static part is the gradient of `V + mu . Phi` by all unknowns. Every row of the bordered system comes from one
 //! function.
 
+use crate::common::description;
 use eigentol::{Array, CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit};
 
 use crate::common::derived::{Derived, Model};
@@ -75,26 +76,7 @@ pub(crate) const fn described(
     inputs: &'static [InputInfo],
     design: &'static [DesignInfo],
 ) -> Description {
-    Description {
-        name: Shared::Static(name),
-        coordinates: Shared::Static(coordinates),
-        inputs: Shared::Static(inputs),
-        design: Shared::Static(design),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::Zero,
-        kernels: Shared::Static(&[]),
-    }
+    description!(name, coordinates, inputs, design, true, DampingKind::Zero)
 }
 
 /// A reaction of a position constraint.

@@ -166,7 +166,7 @@ impl Random {
 
 #[test]
 fn a_stable_equilibrium_is_found_from_anywhere() {
-    stable_equilibria_are_found(12);
+    stable_equilibria_are_found(6);
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn stable_equilibria_are_found(cases: u32) {
 
 #[test]
 fn the_nearest_equilibrium_is_one() {
-    nearest_equilibria_are_equilibria(12);
+    nearest_equilibria_are_equilibria(6);
 }
 
 #[test]

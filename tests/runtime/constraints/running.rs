@@ -6,7 +6,7 @@ use eigentol::{
 };
 
 use crate::common::derived::{Derived, Model};
-use crate::common::{NUMBER, SPEED, coordinate, design, input, sizes};
+use crate::common::{NUMBER, SPEED, coordinate, description, design, input, sizes};
 
 /// Two geared rotors with drag, the first driven by a torque; beside them a mass on a spring, loaded by the second
 /// speed: `J1 v1' + c1 v1 - T + mu = 0`, `J2 v2' + c2 v2 + r mu = 0`, `v1 + r v2 = 0`, `m x'' + k x - p v2^2 = 0`.
@@ -18,9 +18,9 @@ const VALUES: [f64; 8] = [0.1, 0.4, 0.02, 0.3, 2.5, 1.7, 60.0, 0.2];
 impl Model for Gears {
     sizes!(4, 1, 8, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Gears"),
-        coordinates: Shared::Static(&[
+    const DESCRIPTION: Description = description!(
+        "Gears",
+        &[
             coordinate("x", crate::common::METRE),
             speed("v1"),
             speed("v2"),
@@ -29,9 +29,9 @@ impl Model for Gears {
                 unit: Unit { symbol: Shared::Static("N*m"), scale: 1.0 },
                 role: Role::VelocityReaction,
             },
-        ]),
-        inputs: Shared::Static(&[input("torque", NUMBER)]),
-        design: Shared::Static(&[
+        ],
+        &[input("torque", NUMBER)],
+        &[
             design("j1", NUMBER, VALUES[0], 0.0),
             design("j2", NUMBER, VALUES[1], 0.0),
             design("c1", NUMBER, VALUES[2], 0.0),
@@ -40,22 +40,10 @@ impl Model for Gears {
             design("m", NUMBER, VALUES[5], 0.0),
             design("k", NUMBER, VALUES[6], 0.0),
             design("p", NUMBER, VALUES[7], 0.0),
-        ]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: false,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    };
+        ],
+        false,
+        DampingKind::General
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 4], v: &[T; 4], _: &[T; 4], _: &[T; 1], b: &[T; 8]) -> [T; 4] {
         [b[5] * a[0], b[0] * v[1], b[1] * v[2], T::constant(0.0)]

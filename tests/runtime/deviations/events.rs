@@ -6,7 +6,7 @@ use crate::common::chain::DOUBLE;
 use crate::common::derived::{Derived, Model};
 use crate::common::models::Spring;
 use crate::common::pendulum::Pendulum;
-use crate::common::{METRE, NUMBER, close, coordinate, design, input, sizes};
+use crate::common::{METRE, NUMBER, close, coordinate, description, design, input, sizes};
 use eigentol::campbell::{Axes, campbell};
 use eigentol::kernels::CurvatureKernels;
 use eigentol::second_order::{critical_curvature, crossing_curvature};
@@ -14,7 +14,7 @@ use eigentol::sweep::{
     Line, Range, critical_sensitivity, critical_state, critical_tolerance, crossing_sensitivity, crossing_tolerance,
     crossings, flutter_onsets,
 };
-use eigentol::{DampingKind, Description, Policy, Real, Shared, Tolerances};
+use eigentol::{DampingKind, Description, Policy, Real, Tolerances};
 
 /// The set value moves by minus the deviation, independently of the design.
 fn critical_moves_back<K: CurvatureKernels>(machine: &K, b: &[f64], start: &[f64], (low, high): (f64, f64)) {
@@ -129,26 +129,14 @@ struct Fed;
 impl Model for Fed {
     sizes!(1, 1, 1, 0);
 
-    const DESCRIPTION: Description = Description {
-        name: Shared::Static("Fed"),
-        coordinates: Shared::Static(&[coordinate("q", METRE)]),
-        inputs: Shared::Static(&[input("u", NUMBER)]),
-        design: Shared::Static(&[design("d", NUMBER, 1.0, 0.0)]),
-        excitations: Shared::Static(&[]),
-        outputs: Shared::Static(&[]),
-        symmetric_stiffness: true,
-        free_directions: 0,
-        held: Shared::Static(&[]),
-        length: 1.0,
-        frequency: eigentol::Unit::si("rad/s"),
-        resolved_modes: None,
-        correlations: eigentol::Shared::Static(&[]),
-        rings: eigentol::Shared::Static(&[]),
-        spans: eigentol::Shared::Static(&[]),
-        harmonics: eigentol::Shared::Static(&[]),
-        damping: DampingKind::General,
-        kernels: Shared::Static(&[]),
-    };
+    const DESCRIPTION: Description = description!(
+        "Fed",
+        &[coordinate("q", METRE)],
+        &[input("u", NUMBER)],
+        &[design("d", NUMBER, 1.0, 0.0)],
+        true,
+        DampingKind::General
+    );
 
     fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 1]) -> [T; 1] {
         *a

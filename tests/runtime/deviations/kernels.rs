@@ -409,7 +409,7 @@ fn any_table_will_do() {
 mod declared {
     use super::*;
     use crate::common::derived::Model;
-    use crate::common::{METRE, NUMBER, coordinate, sizes};
+    use crate::common::{METRE, NUMBER, coordinate, description, sizes};
     use eigentol::{Description, InputInfo, Real, Shared};
 
     const fn given(name: &'static str, tolerance: ToleranceInfo) -> InputInfo {
@@ -424,26 +424,14 @@ mod declared {
     impl Model for Toleranced {
         sizes!(1, 2, 0, 0);
 
-        const DESCRIPTION: Description = Description {
-            name: Shared::Static("Toleranced"),
-            coordinates: Shared::Static(&[coordinate("x", METRE)]),
-            inputs: Shared::Static(&[given("si", SKEW), given("fraction", ToleranceInfo { relative: true, ..SKEW })]),
-            design: Shared::Static(&[]),
-            excitations: Shared::Static(&[]),
-            outputs: Shared::Static(&[]),
-            symmetric_stiffness: true,
-            free_directions: 0,
-            held: Shared::Static(&[]),
-            length: 1.0,
-            frequency: eigentol::Unit::si("rad/s"),
-            resolved_modes: None,
-            correlations: eigentol::Shared::Static(&[]),
-            rings: eigentol::Shared::Static(&[]),
-            spans: eigentol::Shared::Static(&[]),
-            harmonics: eigentol::Shared::Static(&[]),
-            damping: DampingKind::Zero,
-            kernels: Shared::Static(&[]),
-        };
+        const DESCRIPTION: Description = description!(
+            "Toleranced",
+            &[coordinate("x", METRE)],
+            &[given("si", SKEW), given("fraction", ToleranceInfo { relative: true, ..SKEW })],
+            &[],
+            true,
+            DampingKind::Zero
+        );
 
         fn inertia<T: Real>(&self, a: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 2], _: &[T; 0]) -> [T; 1] {
             *a

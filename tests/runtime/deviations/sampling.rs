@@ -46,7 +46,7 @@ fn sampled(
 
 #[test]
 fn monte_carlo_matches_quadrature() {
-    samples_match_quadrature(15_000);
+    samples_match_quadrature(6_000);
 }
 
 #[test]

@@ -267,7 +267,7 @@ fn frequencies_that_cross_are_no_flutter() {
         }
         text += "}";
         let study = study(&text);
-        for _ in 0..40 {
+        for _ in 0..16 {
             let ends = [between(&mut random, 0.0, 1.0), between(&mut random, 1.0, 20.0)];
             let ends = ends.map(|end| (10.0 * end).round() / 10.0);
             let found = study.campbell(Input::new(0), &ends, &[] as &[f64]);
@@ -297,7 +297,7 @@ fn equal_pairs_merge_once_each() {
             }
             text += "}";
             let study = study(&text);
-            for _ in 0..20 {
+            for _ in 0..8 {
                 let (low, high) = (between(&mut random, 0.0, 1.0), onset * between(&mut random, 1.05, 4.0));
                 let found = study.events(Input::new(0), low, high, &[] as &[f64]);
                 let found = found.expect("events").crossings;
@@ -325,7 +325,7 @@ fn the_way_past_a_branch_point_is_the_stable_one() {
              force e: potential(energy: ({first} N/m - u) * x^2 / 2 + ({second} N/m - u) * y^2 / 2
                 + (3 N/m^3) * x^4 + (12 N/m^3) * x^2 * y^2); }}"
         ));
-        for _ in 0..40 {
+        for _ in 0..16 {
             let high = second * 10f64.powf(between(&mut random, 0.02, 2.0));
             let found = study.events(Input::new(0), 0.0, high, &[] as &[f64]);
             let found = found.expect("events").critical;

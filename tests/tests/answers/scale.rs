@@ -147,8 +147,8 @@ fn the_work_of_reading_grows_with_the_square() {
 
 #[test]
 fn long_chains_are_determined() {
-    let chains = ALL.map(|axes| Chain::new(60, axes).text());
-    let others = [spinning(20), scissors(10), scissors(40)];
+    let chains = ALL.map(|axes| Chain::new(30, axes).text());
+    let others = [spinning(12), scissors(10), scissors(20)];
     for text in chains.iter().chain(&others) {
         assert!(compiled(text).is_ok());
     }
@@ -168,8 +168,8 @@ fn very_long_chains_are_determined() {
 #[test]
 fn tiny_masses_count() {
     for axes in ALL {
-        for light in [1, 2, 17, 40] {
-            let chain = Chain { light: Some(light), ..Chain::new(40, axes) };
+        for light in [1, 9, 20] {
+            let chain = Chain { light: Some(light), ..Chain::new(20, axes) };
             assert!(compiled(&chain.text()).is_ok(), "{axes:?} {light}");
         }
     }
@@ -185,11 +185,11 @@ fn hidden_massless_motions_are_named() {
         assert!(matches, "{:?}: {message}: {texts:?}", chain.axes);
     };
     for axes in ALL {
-        for place in [1, 2, 9, 20, 33, 40] {
-            let chain = Chain::new(40, axes);
+        for place in [1, 2, 9, 20] {
+            let chain = Chain::new(20, axes);
             let idle = Some(place);
             expect(Chain { idle, ..chain }, "no mass moves when only `idle` changes");
-            let chain = Chain::new(40, axes);
+            let chain = Chain::new(20, axes);
             let twin = Some(place);
             let both = format!("no mass moves when `twin` and `q{place}` change together");
             expect(Chain { twin, ..chain }, &both);

@@ -2,4 +2,4 @@
 //! against differences.
 
 mod exact;
-mod random;
+pub(crate) mod random;

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use crate::mistakes::refused;
 use crate::program::{Run, answer, file, folder, pendulum, run, run_with_input};
 
 const ROTOR: &str = "jeffcott_rotor.mechanism";
@@ -10,11 +11,7 @@ const PENDULUM: &str = "rotating_pendulum.mechanism";
 /// A command-line mistake whose message contains these parts.
 #[track_caller]
 fn hinted(arguments: &[&str], parts: &[&str]) {
-    let Run { code, out, err } = run(arguments);
-    assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}: {err}");
-    for part in parts {
-        assert!(err.contains(part), "{arguments:?}: `{part}` is not in\n{err}");
-    }
+    refused(arguments, 2, parts);
 }
 
 #[test]

@@ -25,6 +25,22 @@ pub(crate) fn listens(child: &Child) {
     panic!("no handler after half a minute");
 }
 
+/// Waits until a program has used so many seconds of the processors: it is then as far as it would be on an idle machine.
+pub(crate) fn works_for(child: &Child, seconds: f64) {
+    let ticks = (100.0 * seconds) as u64;
+    for _ in 0..12_000 {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", child.id())).unwrap();
+        // The name, which may have spaces, ends with a bracket; user and system time are fields 14 and 15.
+        let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
+        let used: u64 = fields[11..13].iter().map(|field| field.parse::<u64>().unwrap()).sum();
+        if used >= ticks || fields[0] == "Z" {
+            return;
+        }
+        sleep(Duration::from_millis(10));
+    }
+    panic!("not {seconds} s of work in two minutes");
+}
+
 pub(crate) fn interrupt(child: &Child) {
     send("-INT", child);
 }
@@ -58,7 +74,7 @@ fn kept_after(signal: &str) {
     let name = path.display().to_string();
     let child = endless(&["--partial", "-o", &name]);
     listens(&child);
-    sleep(Duration::from_millis(500));
+    works_for(&child, 0.1);
     send(signal, &child);
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
@@ -91,7 +107,7 @@ fn nohup_goes_on() {
         .unwrap();
     listens(&child);
     send("-HUP", &child);
-    sleep(Duration::from_millis(500));
+    works_for(&child, 0.2);
     assert!(child.try_wait().unwrap().is_none(), "it ended");
     send("-TERM", &child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
@@ -101,7 +117,7 @@ fn nohup_goes_on() {
 fn an_answer_says_that_it_is_not_complete() {
     let child = endless(&[]);
     listens(&child);
-    sleep(Duration::from_millis(1500));
+    works_for(&child, 0.2);
     interrupt(&child);
     let output = child.wait_with_output().unwrap();
     let (out, err) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
@@ -130,14 +146,13 @@ fn what_has_no_half_leaves_the_old_file() {
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
 
-/// Ctrl-C some seconds after the start, or later if nothing has begun by then: exit code 130; returns what was written
-/// and printed.
+/// Ctrl-C after some work, or after more if nothing has begun by then: exit code 130; returns what was written and printed.
 fn stopped(arguments: &[&str]) -> (String, String) {
-    for seconds in [1, 4, 12, 36] {
+    for seconds in [0.3, 1.0, 4.0, 16.0] {
         let mut command = command(arguments);
         let child = (command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()).unwrap();
         listens(&child);
-        sleep(Duration::from_secs(seconds));
+        works_for(&child, seconds);
         interrupt(&child);
         let output = child.wait_with_output().unwrap();
         let out = String::from_utf8(output.stdout).unwrap();
@@ -147,7 +162,7 @@ fn stopped(arguments: &[&str]) -> (String, String) {
             return (out, err);
         }
     }
-    panic!("nothing was begun in 36 s");
+    panic!("nothing was begun in 16 s");
 }
 
 #[test]
@@ -272,7 +287,7 @@ fn every_subcommand_ends_soon() {
         let run = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         std::thread::spawn(move || {
             listens(&run);
-            sleep(Duration::from_secs(3));
+            works_for(&run, 0.3);
             interrupt(&run);
             let asked = Instant::now();
             let output = run.wait_with_output().unwrap();

@@ -2,23 +2,14 @@
 //! the length has a standard deviation of 10 mm.
 
 use crate::program::{PENDULUM, answer, examples, file, folder, pendulum, run};
+use crate::strangers::normal;
 
 const SPEED: f64 = 5.0;
 
 /// Probability that the length is between these.
 fn length_between(low: f64, high: f64) -> f64 {
-    let reach = |l: f64| ((l - 1.0) / 0.01).clamp(-12.0, 12.0);
-    let (low, high) = (reach(low), reach(high));
-    let panels = 4000;
-    let step = (high - low) / f64::from(panels);
-    let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt();
-    let weight = |k: i32| match k {
-        0 => 1.0,
-        k if k == panels => 1.0,
-        k => f64::from(2 + 2 * (k % 2)),
-    };
-    let value = |k: i32| weight(k) * density(low + f64::from(k) * step);
-    (0..=panels).map(value).sum::<f64>() * step / 3.0
+    let [low, high] = [low, high].map(|l| normal(((l - 1.0) / 0.01).clamp(-12.0, 12.0)));
+    high - low
 }
 
 /// The length at which the pendulum has this frequency.

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use crate::program::{examples, folder};
 use crate::walkthrough::{Part, UPDATE, parts, walked};
 
+/// Chapters whose commands take seconds each: `.ci/thorough` runs them.
+const SLOW: [&str; 2] = ["flexible_rotor", CHAPTER];
 /// An example of which a chapter of the guide shows a part.
 const CHAPTER: &str = "rotors";
 const EXAMPLE: &str = "gas_turbine.mechanism";
@@ -57,12 +59,22 @@ fn the_readme_shows_what_commands_print() {
 
 #[test]
 fn the_guide_shows_what_commands_print() {
+    chapters_show_what_commands_print(|name| !SLOW.contains(&name));
+}
+
+#[test]
+#[ignore = "a minute and a half"]
+fn slow_chapters_of_the_guide_show_what_commands_print() {
+    chapters_show_what_commands_print(|name| SLOW.contains(&name));
+}
+
+fn chapters_show_what_commands_print(chosen: impl Fn(&str) -> bool) {
     let chapters = crate_folder().join("../guide/src");
     let (mut commands, mut all) = (0, Vec::new());
     for entry in fs::read_dir(&chapters).unwrap() {
         let chapter = entry.unwrap().path();
-        if chapter.extension().is_some_and(|extension| extension == "md") {
-            let name = chapter.file_stem().unwrap().to_string_lossy().into_owned();
+        let name = chapter.file_stem().unwrap().to_string_lossy().into_owned();
+        if chapter.extension().is_some_and(|extension| extension == "md") && chosen(&name) {
             let path = folder(&format!("guide_{name}"));
             if name == CHAPTER {
                 for file in BESIDE.into_iter().chain([EXAMPLE]) {

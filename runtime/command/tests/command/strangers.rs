@@ -173,26 +173,6 @@ const CONICAL: &str = "mechanism Conical {
     joint tilt: revolute(y) from shaft to bar;
     steady spin = 2 * w; }";
 
-/// The frequency of the rod, with `x = cos^2 tilt` and `k` the moment of the shaft by that of the rod.
-fn nodding(w: f64) -> f64 {
-    let k = 0.1 / (0.8 * 0.8 / 3.0);
-    let x = (1.5 * 9.81 / (0.8 * 4.0 * w * w)).powi(2);
-    2.0 * w * ((1.0 - x) * (1.0 + 4.0 * x / (k + 1.0 - x))).sqrt()
-}
-
-/// A tolerance of an input acts through the steady value that the input sets.
-#[test]
-fn tolerances_of_inputs_act_through_steady_values() {
-    let arguments = ["--set", "w=4rad/s", "--start", "tilt=0.9rad", "--tol", "w=5%"];
-    let more = ["--result", "first-order tolerances", "--csv"];
-    let out = declared("steady_tol", CONICAL, &[&["tolerance"], &arguments[..], &more].concat());
-    let sigma = column(&out, "sigma of frequency [rad/s]").unwrap();
-    let slope = (nodding(4.0 + 1e-4) - nodding(4.0 - 1e-4)) / 2e-4;
-    let expected = slope.abs() * 4.0 * 0.05 / 3.0;
-    let near = |value: &f64| (value / expected - 1.0).abs() < 1e-7;
-    assert!(sigma.iter().any(near), "{expected}\n{out}");
-}
-
 /// A free motion is named once, not by numbers that it does not have.
 #[test]
 fn free_modes_are_named_once() {
@@ -254,7 +234,7 @@ fn modes_are_sorted_as_their_numbers_say() {
 }
 
 /// The standard normal distribution, by Simpson's rule.
-fn normal(z: f64) -> f64 {
+pub(crate) fn normal(z: f64) -> f64 {
     let panels = 20_000;
     let step = z / f64::from(panels);
     let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt();

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use eigentol_tables::{Table, Values, csv, json, parquet};
 
-use crate::interrupt::{interrupt, listens};
+use crate::interrupt::{interrupt, listens, works_for};
 use crate::program::{answer, command, folder, pendulum, run, swept};
 
 const ROTOR: &str = "jeffcott_rotor.mechanism";
@@ -212,7 +212,7 @@ fn ctrl_c_leaves_a_csv_file_with_what_is_done() {
 #[test]
 fn ctrl_c_leaves_a_parquet_file_with_what_is_done() {
     let endless = Endless::campbell("rows.parquet");
-    sleep(Duration::from_millis(1500));
+    works_for(&endless.child, 0.5);
     let (path, done) = endless.interrupted();
     assert_eq!(table_of_file(&path).rows(), done);
 }

@@ -121,7 +121,7 @@ fn design_points_that_are_reflections_are_found() {
     let points = about.limits[0].design_points.as_ref().expect("four");
     assert_eq!(points.len(), 4);
     // Twice the integral of phi(e) phi(g) Phi(-20 / (e g)) over e, g > 0, times two for the sign of e g.
-    let steps = 1200;
+    let steps = 300;
     let width = 12.0 / f64::from(steps);
     let at = |k: i32| (f64::from(k) + 0.5) * width;
     let density = eigentol_statistics::normal::density;

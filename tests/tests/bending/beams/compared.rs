@@ -49,6 +49,19 @@ pub(crate) fn study(text: &str, speed: Option<f64>) -> Study<Interpreted> {
     }
 }
 
+pub(crate) fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
+    let modes = study.modes().expect("modes");
+    modes.frequencies().into_iter().flatten().collect()
+}
+
+pub(crate) fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
+    assert_eq!(values.len(), expected.len());
+    for (found, expected) in values.iter().zip(expected) {
+        let scale = expected.abs().max(1e-12);
+        assert!((found - expected).abs() < bar * scale, "{found} {expected}");
+    }
+}
+
 fn close(value: f64, expected: f64, scale: f64, bar: f64, what: &str) {
     let error = (value - expected).abs() / scale.abs();
     assert!(error <= bar, "{what}: {value} instead of {expected}, {error:.1e} > {bar:.0e}");

@@ -1,22 +1,6 @@
 //! The same beam, declared in several ways.
 
-use eigentol::Study;
-use eigentol_interpreter::Interpreted;
-
-use crate::beams::compared::study;
-
-fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
-    let modes = study.modes().expect("modes");
-    modes.frequencies().into_iter().flatten().collect()
-}
-
-fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
-    assert_eq!(values.len(), expected.len());
-    for (found, expected) in values.iter().zip(expected) {
-        let scale = expected.abs().max(1e-12);
-        assert!((found - expected).abs() < bar * scale, "{found} {expected}");
-    }
-}
+use crate::beams::compared::{assert_alike, frequencies, study};
 
 const BAR: &str = "along: x, up: z, mass_per_length: mu, stiffness_y: EI, bending_y: 6);";
 const NUMBERS: &str = "design EI = 3 N*m^2; design mu = 1.2 kg/m; design L = 0.9 m; gravity 9.81 m/s^2 along -z;";

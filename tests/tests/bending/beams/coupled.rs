@@ -1,22 +1,6 @@
 //! Sections whose stiffness is a matrix.
 
-use eigentol::Study;
-use eigentol_interpreter::Interpreted;
-
-use crate::beams::compared::study;
-
-fn frequencies(study: &Study<Interpreted>) -> Vec<f64> {
-    let modes = study.modes().expect("modes");
-    modes.frequencies().into_iter().flatten().collect()
-}
-
-fn assert_alike(values: &[f64], expected: &[f64], bar: f64) {
-    assert_eq!(values.len(), expected.len());
-    for (found, expected) in values.iter().zip(expected) {
-        let scale = expected.abs().max(1e-12);
-        assert!((found - expected).abs() < bar * scale, "{found} {expected}");
-    }
-}
+use crate::beams::compared::{assert_alike, frequencies, study};
 
 /// A cantilever with all kinds of coordinates.
 fn cantilever(section: &str, turned: &str) -> Vec<f64> {

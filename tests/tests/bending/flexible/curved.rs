@@ -68,7 +68,7 @@ fn curved_beams_and_coupled_strains() {
     let sections = [[OF_NUMBERS; 2], coupled, [coupled[0], OF_NUMBERS]];
     let mut random = Random::new(21);
     for (k, way) in WAYS.into_iter().enumerate() {
-        for (j, curve) in CURVES.into_iter().enumerate() {
+        for (j, curve) in CURVES.into_iter().enumerate().skip(k % 2).step_by(2) {
             let machine = machine(sections[(k + j) % 3], &format!("{way}{curve}"));
             let state = machine.state(&mut random);
             judge(way, &machine, &state);

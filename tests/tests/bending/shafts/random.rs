@@ -1,4 +1,4 @@
-//! Shafts of random steps: against the same with each section in eight, against `beam`s, and derivatives against
+//! Shafts of random steps: against the same with each section in four, against `beam`s, and derivatives against
 //! differences.
 
 use std::fmt::Write;
@@ -10,10 +10,10 @@ use eigentol_interpreter::Interpreted;
 use crate::beams::compared::machine;
 
 /// Numbers without a pattern, always the same.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -86,8 +86,8 @@ fn study(seed: u64, split: usize) -> Study<Interpreted> {
 
 #[test]
 fn sections_may_be_divided() {
-    for seed in 1..7 {
-        let (whole, split) = (study(seed, 1), study(seed, 8));
+    for seed in 1..4 {
+        let (whole, split) = (study(seed, 1), study(seed, 4));
         let [a, b] = [&whole, &split].map(|study| study.modes().expect("modes"));
         for (a, b) in a.modes.iter().zip(&b.modes).take(8) {
             assert!((a.s - b.s).norm() < 2e-8 * b.s.norm(), "{seed}: {} {}", a.s, b.s);
@@ -113,31 +113,30 @@ fn derivatives_are_those_of_differences() {
             (study.sensitivities().expect("derivatives"), study.forced_sensitivities().expect("derivatives"));
         let outputs = study.outputs().expect("derivatives");
         let variables: Vec<f64> = study.description().design.iter().map(|variable| variable.nominal).collect();
+        let shapes: Vec<_> =
+            (0..6).map(|mode| study.shape_sensitivity(mode).expect("derivatives of a shape")).collect();
         for (k, nominal) in variables.iter().enumerate() {
             let step = 3e-3 * nominal;
             let moved = |steps: f64| study.clone().design(DesignVariable::new(k), nominal + steps * step);
             let around = [-2.0, -1.0, 1.0, 2.0].map(moved);
-            let slope = |of: &dyn Fn(&Study<Interpreted>) -> Complex| {
-                let [a, b, c, d] = around.each_ref().map(of);
-                (a - d + 8.0 * (c - b)) / (12.0 * step)
-            };
+            let modes_around = around.each_ref().map(|study| study.modes().expect("modes").modes);
+            let slope = |[a, b, c, d]: [Complex; 4]| (a - d + 8.0 * (c - b)) / (12.0 * step);
             for (number, (mode, sensitivity)) in modes.modes.iter().zip(&sensitivities.modes).take(6).enumerate() {
-                let nearest = |study: &Study<Interpreted>| {
-                    let modes = study.modes().expect("modes").modes;
-                    let apart = |own: &eigentol::Mode| (own.s - mode.s).norm();
-                    modes.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes")
-                };
+                let apart = |own: &eigentol::Mode| (own.s - mode.s).norm();
+                let nearest = modes_around
+                    .each_ref()
+                    .map(|modes| modes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes"));
                 let (found, expected) =
-                    (sensitivity.s().expect("derivatives").by_design[k], slope(&|study| nearest(study).s));
+                    (sensitivity.s().expect("derivatives").by_design[k], slope(nearest.map(|mode| mode.s)));
                 let error = (found - expected).norm() * nominal.abs();
                 assert!(error < 1e-8 * mode.s.norm(), "{seed} {k} {}: {found} {expected}", mode.s);
-                let shapes = study.shape_sensitivity(number).expect("derivatives of a shape");
+                let shapes = &shapes[number];
                 let greatest = |shape: &[Complex]| shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
                 for i in 0..mode.shape.len() {
-                    let (found, expected) = (shapes.right_by_design[k][i], slope(&|study| nearest(study).shape[i]));
+                    let (found, expected) = (shapes.right_by_design[k][i], slope(nearest.map(|mode| mode.shape[i])));
                     let error = (found - expected).norm() * nominal.abs();
                     assert!(error < 1e-6 * greatest(&mode.shape), "{seed} {k} {i}: {found} {expected}");
-                    let (found, expected) = (shapes.left_by_design[k][i], slope(&|study| nearest(study).left()[i]));
+                    let (found, expected) = (shapes.left_by_design[k][i], slope(nearest.map(|mode| mode.left()[i])));
                     let error = (found - expected).norm() * nominal.abs();
                     assert!(error < 1e-6 * greatest(mode.left()), "{seed} {k} {i}: {found} {expected}");
                 }
@@ -147,12 +146,13 @@ fn derivatives_are_those_of_differences() {
                     study.forced_response().expect("a response").harmonics[0].outputs[output].expect("one")
                 };
                 let found = forced.harmonics[0].outputs[output].as_ref().expect("derivatives").by_design[k];
-                let expected = slope(&amplitude);
+                let expected = slope(around.each_ref().map(amplitude));
                 let error = (found - expected).norm() * nominal.abs();
                 assert!(error < 1e-7 * amplitude(&study).norm(), "{seed} {k} output {output}: {found} {expected}");
             }
             let value = |study: &Study<Interpreted>| Complex::from(study.outputs().expect("outputs").values[1]);
-            let (found, expected) = (outputs.by_design[1].as_ref().expect("derivatives")[k], slope(&value).re);
+            let (found, expected) =
+                (outputs.by_design[1].as_ref().expect("derivatives")[k], slope(around.each_ref().map(value)).re);
             assert!(
                 (found - expected).abs() * nominal.abs() < 1e-8 * value(&study).norm(),
                 "{seed} {k}: {found} {expected}"
@@ -271,22 +271,24 @@ fn second_derivatives_are_those_of_differences() {
     let study = study(2, 1);
     let modes = study.modes().expect("modes");
     let variables: Vec<f64> = study.description().design.iter().map(|variable| variable.nominal).collect();
-    for mode in 0..4 {
-        let curvature = study.mode_curvature(mode).expect("second derivatives");
-        let second = curvature.eigenvalue.as_ref().expect("second derivatives");
-        let s = modes.modes[mode].s;
-        assert!(curvature.asymmetry < 1e-7, "{}", curvature.asymmetry);
-        for (k, nominal) in variables.iter().enumerate() {
-            let step = 2e-3 * nominal;
-            let around = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
-                let moved = study.clone().design(DesignVariable::new(k), nominal + steps * step);
-                let modes = moved.modes().expect("modes").modes;
+    let curvatures: Vec<_> = (0..4).map(|mode| study.mode_curvature(mode).expect("second derivatives")).collect();
+    for (k, nominal) in variables.iter().enumerate() {
+        let step = 2e-3 * nominal;
+        let around = [-2.0, -1.0, 1.0, 2.0].map(|steps| {
+            let moved = study.clone().design(DesignVariable::new(k), nominal + steps * step);
+            (moved.modes().expect("modes").modes, moved.sensitivities().expect("derivatives").modes)
+        });
+        for (mode, curvature) in curvatures.iter().enumerate() {
+            let second = curvature.eigenvalue.as_ref().expect("second derivatives");
+            let s = modes.modes[mode].s;
+            assert!(curvature.asymmetry < 1e-7, "{}", curvature.asymmetry);
+            let slopes = around.each_ref().map(|(modes, sensitivities)| {
                 let apart = |k: &usize| (modes[*k].s - s).norm();
                 let own = (0..modes.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("modes");
-                moved.sensitivities().expect("derivatives").modes[own].s().expect("derivatives")
+                sensitivities[own].s().expect("derivatives")
             });
             for (l, other) in variables.iter().enumerate() {
-                let [a, b, c, d] = around.each_ref().map(|slopes| slopes.by_design[l]);
+                let [a, b, c, d] = slopes.each_ref().map(|slopes| slopes.by_design[l]);
                 let expected = (a - d + 8.0 * (c - b)) / (12.0 * step);
                 let found = second.by_design[k][l];
                 let error = (found - expected).norm() * (nominal * other).abs();
@@ -471,7 +473,7 @@ fn spreads_at_a_resonance_are_those_of_designs() {
             let response = study.clone().design(DesignVariable::new(2), nominal + deviation).forced_response();
             response.expect("a response").harmonics[0].outputs[0].expect("an amplitude").norm()
         };
-        let steps: Vec<f64> = (-60..=60).map(|k| f64::from(k) / 12.0).collect();
+        let steps: Vec<f64> = (-20..=20).map(|k| f64::from(k) / 4.0).collect();
         let weights: Vec<f64> = steps.iter().map(|x| (-0.5 * x * x).exp()).collect();
         let heights: Vec<f64> = steps.iter().map(|x| height(x * sigma)).collect();
         let all: f64 = weights.iter().sum();
@@ -489,7 +491,7 @@ fn spreads_at_a_resonance_are_those_of_designs() {
 /// the same with each section in three, slow, fast and standing still; none of either is missing in the other.
 #[test]
 fn no_mode_is_missed() {
-    for seed in 20..26 {
+    for seed in 20..24 {
         let text = |split: usize| {
             let text = rotor(seed, split);
             if seed % 2 == 0 { text.replace("design lag = 4 us", "design lag = 0 us") } else { text }
@@ -605,6 +607,6 @@ fn motions_that_die_away_at_once_hide_none() {
     };
     // The limit is between, and is found.
     let study = Study::new(machine(&text(100.0))).input(Input::new(0), 200.0);
-    let found = study.flutter_onsets(Input::new(0), 100.0, 3000.0).expect("onsets").swap_remove(0);
+    let found = study.flutter_onsets(Input::new(0), 2000.0, 3000.0).expect("onsets").swap_remove(0);
     assert!(stable(0.999 * found.value) && !stable(1.001 * found.value), "{}", found.value);
 }

@@ -4,15 +4,7 @@ use std::fmt::Write;
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-/// Numbers without a pattern, always the same.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use crate::shafts::random::Random;
 
 /// How many of the nodes are stations.
 const STATIONS: usize = 5;

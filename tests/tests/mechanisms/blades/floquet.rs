@@ -112,11 +112,11 @@ fn multipliers(text: &str, omega: f64) -> Vec<Complex> {
 fn exponents_are_those_of_an_integration_over_a_turn() {
     let mut random = ChaCha8Rng::seed_from_u64(62);
     let mut unit = || f64::from(random.next_u32()) / f64::from(u32::MAX);
-    for (trial, blades) in [4, 3, 5, 4, 3, 6].into_iter().enumerate() {
+    for (trial, blades) in [4, 3, 5, 6].into_iter().enumerate() {
         let mut values: Vec<f64> =
             [4000.0, 3000.0, 1.2e6, 1.2e6, 4e4, 3e4, 8e6].into_iter().map(|of| of * (0.5 + unit())).collect();
         values[3] = values[2] * (1.3 + unit());
-        let omega = (60.0 + 260.0 * trial as f64 / 5.0) * TAU / 60.0;
+        let omega = (60.0 + 260.0 * trial as f64 / 3.0) * TAU / 60.0;
         let study = at(&rotor(&values, blades, true), omega);
         let modes = study.modes().expect("modes");
         let period = TAU / omega;
@@ -241,7 +241,7 @@ fn gravity_across_the_axis_against_integration_about_the_periodic_motion() {
         let turning = Turning { kernels: &free, spin, others, omega };
         let mut start = DVector::zeros(2 * n - 2);
         let mut monodromy = DMatrix::zeros(0, 0);
-        for _ in 0..4 {
+        for _ in 0..3 {
             let (end, change) = turning.turn(&start, 3000);
             let identity = DMatrix::identity(2 * n - 2, 2 * n - 2);
             start += (identity - &change).lu().solve(&(end - &start)).expect("a periodic motion");

@@ -73,7 +73,7 @@ fn among(some: &[Complex], others: &[Complex]) -> bool {
 fn modes_of_floating_rows_between_thrusts() {
     let mut random = RandomNumbers::new(5, 0);
     let mut unstable = 0;
-    for k in 0..80 {
+    for k in 0..32 {
         let text = row(&mut random, k % 2 == 0);
         let study = study(&text);
         let at = study.equilibrium().unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -89,7 +89,7 @@ fn modes_of_floating_rows_between_thrusts() {
         let neutral = at.stability == Stability::Neutral { zero: 3 };
         assert_eq!(neutral, !grows, "{:?}\n{text}", at.stability);
     }
-    assert!((10..70).contains(&unstable), "{unstable}");
+    assert!((4..28).contains(&unstable), "{unstable}");
 }
 
 /// Derivatives by the thrust, which the left vectors decide, against differences.
@@ -97,7 +97,7 @@ fn modes_of_floating_rows_between_thrusts() {
 fn derivatives_of_floating_rows_between_thrusts() {
     let mut random = RandomNumbers::new(6, 0);
     let mut compared = 0;
-    for k in 0..20 {
+    for k in 0..10 {
         let text = row(&mut random, k % 2 == 0);
         let study = study(&text);
         let thrust: DesignVariable<_> = DesignVariable::new(0);
@@ -126,7 +126,7 @@ fn derivatives_of_floating_rows_between_thrusts() {
             compared += 1;
         }
     }
-    assert!(compared > 50, "{compared}");
+    assert!(compared > 25, "{compared}");
 }
 
 /// A row with its second bar split into two that are pinned to each other at both ends, a closed loop.
@@ -153,7 +153,7 @@ fn with_a_loop(row: &str, share: f64) -> String {
 #[test]
 fn loops_in_floating_rows_between_thrusts() {
     let mut random = RandomNumbers::new(7, 0);
-    for k in 0..20 {
+    for k in 0..8 {
         let text = row(&mut random, k % 2 == 0);
         let closed = with_a_loop(&text, 0.1 + 0.8 * random.fraction());
         let [expected, found] = [&text, &closed].map(|text| {
@@ -257,7 +257,7 @@ impl Missile {
 #[test]
 fn missiles_under_thrust() {
     let mut random = RandomNumbers::new(8, 0);
-    for k in 0..40 {
+    for k in 0..24 {
         let rods = 2 + k % 4;
         let thrust = [0.0, 0.01, 1.0, 3.0, -5.0, 20.0][k % 6] * (1.0 + random.fraction());
         let missile = Missile::new(&mut random, rods, (thrust, k % 3 == 0));
@@ -337,7 +337,7 @@ fn events_along_a_thrust_are_those_of_counting() {
     const VALUES: usize = 600;
     let mut random = RandomNumbers::new(8, 0);
     let mut changes = 0;
-    for k in 0..12 {
+    for k in 0..6 {
         let (text, most) = launcher(&mut random, k % 3 == 0);
         let study = study(&text);
         let input = eigentol::Input::new(0);
@@ -381,7 +381,7 @@ fn events_along_a_thrust_are_those_of_counting() {
         assert!(found.iter().all(|a| expected.iter().any(|b| close(*a, *b))), "{whole}");
         changes += expected.len();
     }
-    assert!(changes > 8, "{changes}");
+    assert!(changes > 4, "{changes}");
 }
 
 /// A uniform free beam under a thrust that follows its end flutters at `109.69 EI / L^2` (Beal 1965), whatever the range.

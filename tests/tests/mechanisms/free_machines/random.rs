@@ -140,7 +140,7 @@ fn compare(chain: &Chain, free: usize) {
 #[test]
 fn floating_chains_about_any_of_their_bars() {
     let mut random = RandomNumbers::new(1, 0);
-    for _ in 0..40 {
+    for _ in 0..16 {
         compare(&Chain::random(&mut random), 3);
     }
 }
@@ -149,7 +149,7 @@ fn floating_chains_about_any_of_their_bars() {
 #[test]
 fn floating_chains_in_a_medium() {
     let mut random = RandomNumbers::new(2, 0);
-    for _ in 0..20 {
+    for _ in 0..8 {
         let mut chain = Chain::random(&mut random);
         let bar = (chain.lengths.len() as f64 * random.fraction()) as usize;
         chain.drag = Some((bar, pick(&mut random, &[0.1])));
@@ -161,7 +161,7 @@ fn floating_chains_in_a_medium() {
 #[test]
 fn drivetrains_in_absolute_relative_and_mixed_coordinates() {
     let mut random = RandomNumbers::new(3, 0);
-    for _ in 0..40 {
+    for _ in 0..16 {
         let count = 3 + (3.0 * random.fraction()) as usize;
         let inertia: Vec<f64> = (0..count).map(|_| pick(&mut random, &[1.0, 0.1])).collect();
         let parents: Vec<usize> = (1..count).map(|k| (k as f64 * random.fraction()) as usize).collect();

@@ -79,7 +79,7 @@ fn in_vectors<M: Mechanism + Copy>(machine: M, name: &'static str, samples: usiz
 
 #[test]
 fn samples_in_vectors_are_those_alone() {
-    compare_all(80);
+    compare_all(40);
 }
 
 #[test]

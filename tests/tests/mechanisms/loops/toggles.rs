@@ -192,7 +192,7 @@ fn check(state: &State, offset: f64) {
 
 #[test]
 fn equilibria_are_those_that_the_energy_has_whatever_the_number_of_starts() {
-    equilibria_are_those_that_the_energy_has(&[(20, 1), (200, 1), (20, 2)]);
+    equilibria_are_those_that_the_energy_has(&[(20, 1), (60, 1), (20, 2)]);
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn single_starts_end_at_the_one_stable_place_beside_the_straight_toggles() {
     let bend = bend.expect("a place of rest");
     let omega = (circle.curvature(bend) / circle.inertia(bend)).sqrt();
     let angle = |i: i32| 0.02 + 0.05 * f64::from(i);
-    for (i, j) in (-10..=10).flat_map(|i| (-10..=10).map(move |j| (i, j))) {
+    for (i, j) in (-10..=10).step_by(2).flat_map(|i| (-10..=10).step_by(2).map(move |j| (i, j))) {
         let study = from(angle(i), angle(j), 2.2);
         let state = study.equilibrium().expect("an equilibrium");
         check(&state, OFFSET);

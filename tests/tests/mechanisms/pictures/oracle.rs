@@ -216,7 +216,7 @@ fn only_inertias_that_no_body_has_are_left_out() {
 
 #[test]
 fn pictures_of_random_trees_are_those_of_the_oracle() {
-    agree_on(60);
+    agree_on(30);
 }
 
 #[test]
@@ -230,7 +230,7 @@ fn pictures_of_many_random_trees_are_those_of_the_oracle() {
 #[test]
 fn every_wrong_sign_and_place_is_found() {
     let seen = Cell::new([0; 3]);
-    on_plans(6, |plan| {
+    on_plans(4, |plan| {
         let model = plan.model();
         let Some((compilation, case)) = compiled(&model, plan.seed) else {
             return;
