@@ -224,25 +224,19 @@ impl Assembly {
         others
     }
 
-    /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span. By
-    /// an entry of the matrices of the stations it is `-left_i right_j` times 1, `s` or `s^2`, over [`Self::normaliser`].
+    /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span.
     #[must_use]
     pub fn slopes(&self, mode: &Mode) -> Vec<SpanGradient> {
-        let condensed = self.condensed(mode.s);
-        let mut all = self.gradient(&condensed.weights(&mode.left), &condensed.motion(&mode.right), mode.s);
-        let factor = -self.normaliser(mode).inv();
+        let Mode { s, right, left } = mode;
+        let condensed = self.condensed(*s);
+        let mut all = self.gradient(&condensed.weights(left), &condensed.motion(right), *s);
+        let by_s = all.iter().map(|own| own.rate).sum::<Complex>() + self.slope_of_stations(left, *s, right);
         for own in &mut all {
-            own.rate *= factor;
-            own.speed *= factor;
-            own.sections.iter_mut().flatten().for_each(|x| *x *= factor);
+            own.rate /= -by_s;
+            own.speed /= -by_s;
+            own.sections.iter_mut().flatten().for_each(|x| *x /= -by_s);
         }
         all
-    }
-
-    /// `left^T T'(s) right`.
-    #[must_use]
-    pub fn normaliser(&self, mode: &Mode) -> Complex {
-        dot_complex(&mode.left, &self.condensed(mode.s).slope_times(&mode.right))
     }
 
     /// Modes from approximations, for example those at a neighbouring speed or design, by Newton's method side by side in the

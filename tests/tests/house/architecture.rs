@@ -30,7 +30,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     (
         "runtime/solve",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-shafts", "eigentol-statistics"],
-        372,
+        375,
     ),
     (
         "runtime/tolerance",
@@ -47,7 +47,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        477,
+        478,
     ),
     (
         "runtime/uncertainty",
@@ -76,7 +76,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 63),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 64),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 496),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 424),
