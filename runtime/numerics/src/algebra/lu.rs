@@ -4,6 +4,7 @@ use super::for_size;
 use super::matrix::{Matrix, combine_rows};
 use super::vector::Vector;
 use crate::Complex;
+use eigentol_contract::Real;
 
 /// Scalars of a linear system: real or complex numbers.
 pub trait Field:
@@ -33,6 +34,9 @@ impl Field for Complex {
     }
 }
 
+/// Size from which rows are long enough for the vectors of the processor, which do not change the bits.
+const LARGE: usize = 16;
+
 /// Factors with row exchanges.
 #[derive(Clone, Debug)]
 pub struct Lu<T = f64> {
@@ -53,12 +57,19 @@ impl<T: Field> Lu<T> {
     pub fn of(matrix: Matrix<T>) -> Option<Self> {
         let n = matrix.row_count();
         let mut lu = Self { factors: matrix, order: (0..n).collect(), odd: false };
-        for_size(
-            n,
-            #[inline(always)]
-            |n| lu.factor(n),
-        )
-        .then_some(lu)
+        let regular = if n < LARGE {
+            for_size(
+                n,
+                #[inline(always)]
+                |n| lu.factor(n),
+            )
+        } else {
+            f64::run(
+                #[inline(always)]
+                || lu.factor(n),
+            )
+        };
+        regular.then_some(lu)
     }
 
     /// Factors, in place, the matrix of size `n`; see [`for_size`]. Returns whether it is regular.
