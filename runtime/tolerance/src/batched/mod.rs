@@ -3,9 +3,9 @@
 //!
 //! # Sweeps side by side
 //!
-//! Where three states in a row show the way, the next eight values of a sweep are solved in vectors (`batched`,
-//! `sweep/driver.rs`): Newton's method from the parabola through the last three, modes in the basis of the last ones,
-//! derivatives as for one state. A lane counts when it is at rest to rounding, a clear minimum, near the parabola
+//! Where the path shows the way, the next eight values of a sweep are solved in vectors (`batched`, `sweep/driver.rs`):
+//! Newton's method from the polynomial through the last five states (behind the first one, from its tangent), modes in the
+//! basis of the last ones, derivatives as for one state. A lane counts when it is at rest to rounding, a clear minimum, near the parabola
 //! through the three states before it, each mode recognised and apart from the others. States are accepted up to the
 //! first lane that fails; the scalar solver continues from there. Points are shown to a function and overwritten,
 //! because allocating results of this size costs more than computing them.
