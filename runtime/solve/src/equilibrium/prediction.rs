@@ -3,6 +3,8 @@
 //! A block of eight values reaches far beyond the last state, where a parabola is off by more than one Newton step mends: of a
 //! smooth path, terms of third and fourth degree save a step. A rough one shows it by terms that do not shrink.
 
+use core::mem::replace;
+
 use crate::algebra::{Vector, all_finite, dot, greater, largest};
 
 /// Share of the distance by which a prediction may miss.
@@ -41,7 +43,7 @@ impl Path {
         for (terms, q) in self.terms.iter_mut().zip(q) {
             let mut new = q;
             for (term, per_step) in terms.iter_mut().zip(per_step) {
-                let old = core::mem::replace(term, new);
+                let old = replace(term, new);
                 new = (new - old) * per_step;
             }
         }
@@ -99,10 +101,7 @@ impl Path {
         let mut most = f64::INFINITY;
         for k in 2..MOST {
             let size = (terms[k] * reach[k]).abs();
-            if !(size < most) {
-                terms[k] = 0.0;
-            }
-            most = if size < most { SHRINKS * size } else { 0.0 };
+            (terms[k], most) = if size < most { (terms[k], SHRINKS * size) } else { (0.0, 0.0) };
         }
         terms
     }
@@ -153,7 +152,9 @@ mod tests {
     fn higher_terms_count_as_long_as_they_shrink() {
         let ends = |state: fn(f64) -> f64, to: f64| {
             let mut path = Path::default();
-            [0.0, 0.1, 0.2, 0.3, 0.4].map(|u| path.go(u, [state(u)].into_iter()));
+            for u in [0.0, 0.1, 0.2, 0.3, 0.4] {
+                path.go(u, [state(u)].into_iter());
+            }
             path.at(to).map_or(f64::NAN, |predicted| predicted[0])
         };
         let quartic = |u: f64| 1.0 + u + u * u + 0.5 * u.powi(3) + 0.25 * u.powi(4);
