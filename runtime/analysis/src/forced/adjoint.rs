@@ -128,7 +128,7 @@ pub(super) fn gradients(solved: &Solved<'_>, vibration: &Vibration, outputs: &[&
         let (s, n) = (vibration.harmonic.s(), solved.at.coordinates.len());
         let [re, im] = &mut total;
         for (k, output) in outputs.iter().enumerate() {
-            let _ = shafts.add(&output.factors.left, s, &vibration.harmonic.unknowns, |variable, slope| {
+            shafts.add(&output.factors.left, s, &vibration.harmonic.unknowns, |variable, slope| {
                 re[k][n + variable] += slope.re;
                 im[k][n + variable] += slope.im;
             });

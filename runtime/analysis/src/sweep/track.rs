@@ -13,7 +13,7 @@ use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
 use crate::modes::{
-    CLUSTER_GAP, Family, Followed, holds, least_in_place, match_with_assurance, merged, near_another, position,
+    CLUSTER_GAP, Family, Followed, holds, match_with_assurance, merged, near_another, position, stay_in_place,
 };
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;
@@ -411,7 +411,7 @@ impl<'a> Tracker<'a> {
             return Ok(Step::WithoutModes(point, error));
         }
         if let Some(Ok(modes)) = self.last.as_ref().map(|last| &last.modes) {
-            if least_in_place(modes, point_modes, &state.linear) >= RECOGNISED {
+            if stay_in_place(modes, point_modes, &state.linear, RECOGNISED) {
                 point_modes.continue_in_place(modes);
             } else {
                 let order = match_with_assurance(modes, point_modes, &state.linear);
@@ -446,4 +446,50 @@ enum Step {
     WithoutModes(Box<SweepPoint>, Error),
     /// Modes were not recognised; an intermediate value to try.
     TooFar(f64),
+}
+
+#[cfg(test)]
+mod tests {
+    use eigentol::mechanism;
+
+    use super::*;
+
+    mechanism! {
+        mechanism Governor {
+            input omega: rad/s;
+            gravity 9.81 m/s^2 along -z;
+            body shaft: massless;
+            body bar: rod(mass: 3 kg, length: 1 m, along: -z);
+            joint spin:  revolute(z) from ground to shaft, driven at omega;
+            joint theta: revolute(y) from shaft to bar;
+        }
+    }
+
+    fn tracker() -> Tracker<'static> {
+        let input = Input::new(0);
+        Tracker::new(&Governor, (&[0.0], &[]), &[1.0], Policy::Stable.into(), input)
+    }
+
+    #[test]
+    fn a_path_begins_along_its_tangent() {
+        for next in [6.01, 5.99] {
+            let mut tracker = tracker();
+            assert!(tracker.advance(6.0).is_none() && tracker.begins());
+            let before = tracker.from[0];
+            assert!(tracker.begin(next).is_some() && !tracker.begins());
+            let Some(predicted) = tracker.path.at(next) else { panic!("a tangent") };
+            assert!(tracker.advance(next).is_none());
+            // cos theta = 3 g / (2 omega^2 l)
+            let exact = (1.5 * 9.81 / (next * next)).acos();
+            assert!((tracker.from[0] - exact).abs() < 1e-12);
+            assert!((predicted[0] - exact).abs() < 0.02 * (exact - before).abs(), "{predicted:?} {exact}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_move_has_no_tangent() {
+        let mut tracker = tracker();
+        assert!(tracker.advance(1.0).is_none());
+        assert!(tracker.begin(1.1).is_none() && tracker.begins());
+    }
 }

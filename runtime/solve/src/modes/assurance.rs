@@ -53,15 +53,12 @@ fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
     phase * (1.0 - EIGENVALUE_SHARE * distance)
 }
 
-/// The least assurance of undamped modes that keep their places; zero where they do not or are not undamped.
+/// Whether these are undamped modes each of which has at least this assurance in its place.
 #[must_use]
-pub fn least_in_place(from: &Modes, to: &Modes, linear: &Linear) -> f64 {
+pub fn stay_in_place(from: &Modes, to: &Modes, linear: &Linear, least: f64) -> bool {
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
-    if !undamped || from.modes.len() != to.modes.len() {
-        return 0.0;
-    }
-    let assurances = from.modes.iter().zip(&to.modes).map(|(x, y)| real_assurance(x, y, &linear.mass));
-    assurances.fold(1.0, |least, same| if same < least { same } else { least })
+    let mut pairs = from.modes.iter().zip(&to.modes);
+    undamped && from.modes.len() == to.modes.len() && pairs.all(|(x, y)| real_assurance(x, y, &linear.mass) >= least)
 }
 
 /// The assurance of two undamped modes.
