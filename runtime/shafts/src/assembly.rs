@@ -1,6 +1,5 @@
 //! Spans of shafts between stations, and everything else there is at the stations.
 
-use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use eigentol_numerics::Complex;
@@ -8,7 +7,7 @@ use eigentol_numerics::algebra::{Lu, Matrix, Vector};
 
 use crate::basis::{Class, MOST, classes};
 use crate::chain::{Along, Chain};
-use crate::element::{Element, Node, forms, loads};
+use crate::element::{Element, Node, loads};
 use crate::error::Error;
 use crate::motion::{Kept, Motion, Side};
 use crate::section::{Coefficients, Line, Number, TERMS, at, slope_at};
@@ -36,19 +35,15 @@ pub struct Condensed<'a> {
     assembly: &'a Assembly,
     /// 1/s.
     pub s: Complex,
-    chains: Cow<'a, [Vec<Chain>]>,
+    chains: Vec<Vec<Chain>>,
 }
-
-/// The spans at one `s`, with everything between the stations eliminated.
-#[derive(Clone, Debug)]
-pub struct Chains(Vec<Vec<Chain>>);
 
 /// How a coefficient changes with a number, or behind these with the speed.
 #[derive(Clone, Debug)]
-struct Change {
-    number: usize,
-    term: usize,
-    slope: [Complex; 3],
+pub(crate) struct Change {
+    pub(crate) number: usize,
+    pub(crate) term: usize,
+    pub(crate) slope: [Complex; 3],
 }
 
 /// An assembly at one `s`, factored.
@@ -130,6 +125,11 @@ impl Assembly {
         self.spans[span].pieces().map(move |section| self.kinds[span][section])
     }
 
+    /// Which of the different sections of a span a section is.
+    pub(crate) fn kind(&self, span: usize, section: usize) -> usize {
+        self.kinds[span][section]
+    }
+
     fn chain(&self, span: usize, direction: usize, s: Complex) -> Chain {
         let own = &self.spans[span];
         let classes = self.classes_of(own.line);
@@ -142,12 +142,11 @@ impl Assembly {
 
     /// `s^2 M + s C + K` and its derivative: what is at the stations.
     pub(crate) fn of_stations(&self, s: Complex) -> [Matrix<Complex>; 2] {
-        let n = self.stations();
-        let (k, c, m) = (&self.stiffness, &self.damping, &self.mass);
-        [
-            Matrix::from_fn(n, n, |i, j| Complex::from(k[i][j]) + s * (c[i][j] + s * m[i][j])),
-            Matrix::from_fn(n, n, |i, j| Complex::from(c[i][j]) + s * (2.0 * m[i][j])),
-        ]
+        let [k, c, m] = [&self.stiffness, &self.damping, &self.mass].map(|matrix| matrix.as_flattened());
+        let all = k.iter().zip(c).zip(m);
+        let matrix = all.map(|((k, c), m)| s * (s * *m + *c) + *k).collect();
+        let slope = c.iter().zip(m).map(|(c, m)| s * (2.0 * m) + *c).collect();
+        [matrix, slope].map(|entries| Matrix::from_rows(self.stations(), entries))
     }
 
     /// Coefficients of the different sections of a span in a direction, each with one of these sections.
@@ -178,27 +177,16 @@ impl Assembly {
     /// The assembly at one `s`, not factored: a cost that grows linearly with the sections.
     #[must_use]
     pub fn condensed(&self, s: Complex) -> Condensed<'_> {
-        Condensed { assembly: self, s, chains: self.chains(s).0.into() }
-    }
-
-    /// The same with its spans at this `s`, which are those of any assembly of these spans.
-    #[must_use]
-    pub fn condensed_with<'a>(&'a self, s: Complex, chains: &'a Chains) -> Condensed<'a> {
-        Condensed { assembly: self, s, chains: Cow::Borrowed(&chains.0) }
-    }
-
-    /// The spans at one `s`.
-    #[must_use]
-    pub fn chains(&self, s: Complex) -> Chains {
         let of_span = |(k, span): (usize, &Span)| {
             let directions = 0..span.directions().len();
             directions.map(|direction| self.chain(k, direction, s)).collect()
         };
-        Chains(self.spans.iter().enumerate().map(of_span).collect())
+        let chains = self.spans.iter().enumerate().map(of_span).collect();
+        Condensed { assembly: self, s, chains }
     }
 
     /// How the coefficients of the different sections of each span in each direction change: what is not zero.
-    fn changes(&self) -> &[Vec<Vec<Vec<Change>>>] {
+    pub(crate) fn changes(&self) -> &[Vec<Vec<Vec<Change>>>] {
         let of_section = |span: &Span, direction: f64, section: usize| -> Vec<Change> {
             let element = span.element(section);
             let by_number = Number::ALL.map(|number| element.slopes(span.line, direction * span.speed, number));
@@ -263,52 +251,6 @@ impl Assembly {
         sum
     }
 
-    /// Derivatives of `left^T P(s) right` by the numbers of each section of each span, in the order of [`Number::ALL`], by the
-    /// speed of each span, and of the spans by `s`. With the opposite sign, they are those of what [`At::adjoint`] weighs in a
-    /// response.
-    #[must_use]
-    pub fn gradient(&self, left: &Motion, right: &Motion, s: Complex) -> Vec<SpanGradient> {
-        let of_span = |(index, span): (usize, &Span)| {
-            let mut own = SpanGradient {
-                rate: Complex::ZERO,
-                speed: Complex::ZERO,
-                sections: vec![[Complex::ZERO; Number::ALL.len()]; span.sections.len()],
-            };
-            let classes = self.classes_of(span.line);
-            let sides = left.spans[index].iter().zip(&right.spans[index]);
-            for (d, (left, right)) in sides.enumerate() {
-                let pieces = span.pieces().zip(left.elements().zip(right.elements()));
-                for (section, (left, right)) in pieces {
-                    let forms = forms(classes, left, right);
-                    let kind = self.kinds[index][section];
-                    let k = &self.coefficients[index][d][kind];
-                    own.rate += product(&slope_at(k, s), &forms);
-                    for Change { number, term, slope: [a, b, c] } in &self.changes()[index][d][kind] {
-                        let change = (a + s * (b + s * c)) * forms[*term];
-                        *own.sections[section].get_mut(*number).unwrap_or(&mut own.speed) += change;
-                    }
-                    if span.line == Line::Slender {
-                        // The slopes at the nodes, times half the length, are unknowns of the element.
-                        let k = at(k, s);
-                        let at_slope = |a: &[Complex], b: &[Complex]| -> Complex {
-                            let mut on = vec![Complex::ZERO; a.len()];
-                            loads(classes, &k, a, &mut on);
-                            [1, classes[0].size + 1].iter().map(|&place| on[place] * b[place]).sum()
-                        };
-                        let by_slope = at_slope(left, right) + at_slope(right, left);
-                        own.sections[section][0] += by_slope / span.element(section).length;
-                    }
-                }
-            }
-            // Elements share the length of their section.
-            for (own, (_, pieces)) in own.sections.iter_mut().zip(&span.sections) {
-                own[Number::Length as usize] /= *pieces as f64;
-            }
-            own
-        };
-        self.spans.iter().enumerate().map(of_span).collect()
-    }
-
     /// The derivative of `left^T (s^2 M + s C + K) right` by `s`: of what is at the stations.
     #[must_use]
     pub fn slope_of_stations(&self, left: &[Complex], s: Complex, right: &[Complex]) -> Complex {
@@ -319,40 +261,6 @@ impl Assembly {
         };
         rows.map(of_row).sum()
     }
-
-    /// Twice the amplitude of the kinetic energy over the square of the frequency, of each span in each direction of a motion:
-    /// in `y + i z` and in `y - i z`, of a bar alone. SI.
-    #[must_use]
-    pub fn inertia(&self, motion: &Motion) -> Vec<Vec<f64>> {
-        let of_span = |(span, motion): (&Span, &Vec<Along>)| -> Vec<f64> {
-            let each = span.directions().iter().zip(motion).map(|(&direction, along)| {
-                let sections = span.pieces().zip(along.elements());
-                let of_element = |(section, own): (usize, &[Complex])| {
-                    let mirrored: Vec<Complex> = own.iter().map(Complex::conj).collect();
-                    let inertia = span.coefficients(section, direction).map(|[_, _, c]| c);
-                    product(&inertia, &forms(self.classes_of(span.line), &mirrored, own)).re
-                };
-                sections.map(of_element).sum()
-            });
-            each.collect()
-        };
-        self.spans.iter().zip(&motion.spans).map(of_span).collect()
-    }
-}
-
-/// Derivatives by what describes a span.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SpanGradient {
-    /// By `s`.
-    pub rate: Complex,
-    /// By its speed.
-    pub speed: Complex,
-    /// By the numbers of each section, in the order of [`Number::ALL`].
-    pub sections: Vec<[Complex; Number::ALL.len()]>,
-}
-
-fn product(k: &[Complex; TERMS], forms: &[Complex; TERMS]) -> Complex {
-    k.iter().zip(forms).map(|(k, form)| k * form).sum()
 }
 
 impl<'a> Condensed<'a> {

@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 
 use eigentol_numerics::Matrix;
 
+use crate::number::Number;
 use crate::section::{Line, TERMS};
 
 /// The largest degree.
@@ -22,21 +23,40 @@ pub(crate) const SIGNS: [[[f64; 2]; 2]; 2] = [[[1.0, 1.0], [-1.0, 1.0]], [[-1.0,
 #[derive(Clone, Debug)]
 pub(crate) struct Class {
     pub(crate) size: usize,
-    /// What is not zero on the diagonal and below, by row: row, column, coefficient and value.
-    pub(crate) entries: Vec<(usize, usize, usize, f64)>,
+    /// What is not zero on the diagonal and below, by row.
+    pub(crate) entries: Vec<Entry>,
+}
+
+/// An entry of a matrix: the sum of coefficients times values.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) row: usize,
+    pub(crate) column: usize,
+    /// Of each the coefficient, and the value.
+    pub(crate) terms: Vec<(usize, f64)>,
 }
 
 impl Class {
     fn new(terms: &[Matrix]) -> Self {
         let size = terms.first().map_or(0, Matrix::row_count);
-        let mut entries = Vec::new();
-        for i in 0..size {
-            for j in 0..=i {
-                let own = terms.iter().enumerate().map(|(term, matrix)| (i, j, term, matrix[i][j]));
-                entries.extend(own.filter(|(.., value)| value.abs() > 1e-14));
-            }
+        let places = (0..size).flat_map(|row| (0..=row).map(move |column| (row, column)));
+        let entry = |(row, column): (usize, usize)| {
+            let values = terms.iter().map(|matrix| matrix[row][column]).enumerate();
+            Entry { row, column, terms: values.filter(|(_, value)| value.abs() > 1e-14).collect() }
+        };
+        Self { size, entries: places.map(entry).filter(|entry| !entry.terms.is_empty()).collect() }
+    }
+}
+
+impl Entry {
+    /// The entry with these coefficients.
+    #[inline(always)]
+    pub(crate) fn value<T: Number>(&self, k: &[T; TERMS]) -> T {
+        let mut sum = T::zero();
+        for &(term, value) in &self.terms {
+            sum += k[term].times(value);
         }
-        Self { size, entries }
+        sum
     }
 }
 
@@ -201,7 +221,8 @@ mod tests {
             assert_eq!([all[0].size, all[1].size], sizes, "{line:?} {degree}");
             // A deflection that is one everywhere has no slope.
             let last = if line == Line::Timoshenko { 3 } else { 1 };
-            assert!(all[0].entries.iter().all(|(_, j, term, _)| *j > 0 || *term != last));
+            let resists = |entry: &super::Entry| entry.column == 0 && entry.terms.iter().any(|(term, _)| *term == last);
+            assert!(!all[0].entries.iter().any(resists));
         }
     }
 }

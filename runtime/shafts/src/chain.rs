@@ -7,13 +7,13 @@ use crate::number::Number;
 
 /// A series of elements at one `s`, with all but its two end nodes eliminated.
 #[derive(Clone, Debug)]
-pub(crate) struct Chain {
-    elements: Vec<Element>,
+pub(crate) struct Chain<T = Complex> {
+    elements: Vec<Element<T>>,
     /// Which element each piece is.
     pieces: Vec<usize>,
-    inner: Vec<Eliminated>,
+    inner: Vec<Eliminated<T>>,
     /// Between the end nodes.
-    pub(crate) ends: Ends,
+    pub(crate) ends: Ends<T>,
 }
 
 /// An eliminated node: the inverse of its own block, and its block with the first node.
@@ -25,27 +25,29 @@ pub(crate) struct Eliminated<T = Complex> {
 
 /// The motion of a series of elements, or loads on it.
 #[derive(Clone, Debug)]
-pub(crate) struct Along {
-    pub(crate) nodes: Vec<Node>,
+pub(crate) struct Along<T = Complex> {
+    pub(crate) nodes: Vec<Node<T>>,
     /// Element by element.
-    pub(crate) inner: Vec<Complex>,
+    pub(crate) inner: Vec<T>,
     /// The number of unknowns of an element.
     pub(crate) size: usize,
 }
 
-impl Along {
+impl<T: Number> Along<T> {
+    #[inline(always)]
     pub(crate) fn zeros(pieces: usize, size: usize) -> Self {
-        Self { nodes: vec![[Complex::ZERO; 2]; pieces + 1], inner: vec![Complex::ZERO; pieces * size], size }
+        Self { nodes: vec![[T::zero(); 2]; pieces + 1], inner: vec![T::zero(); pieces * size], size }
     }
 
-    pub(crate) fn elements(&self) -> impl Iterator<Item = &[Complex]> {
+    pub(crate) fn elements(&self) -> impl Iterator<Item = &[T]> {
         self.inner.chunks_exact(self.size)
     }
 }
 
-impl Chain {
+impl<T: Number> Chain<T> {
     /// `pieces` names the element of each piece.
-    pub(crate) fn new(elements: Vec<Element>, pieces: Vec<usize>, components: usize) -> Self {
+    #[inline(always)]
+    pub(crate) fn new(elements: Vec<Element<T>>, pieces: Vec<usize>, components: usize) -> Self {
         let mut ends = elements[pieces[0]].blocks;
         let mut inner = Vec::with_capacity(pieces.len() - 1);
         for &piece in &pieces[1..] {
@@ -56,6 +58,28 @@ impl Chain {
         Self { elements, pieces, inner, ends }
     }
 
+    /// Turns loads that were reduced into the motion of everything between two ends.
+    #[inline(always)]
+    pub(crate) fn motion(&self, ends: [Node<T>; 2], along: &mut Along<T>) {
+        let count = self.pieces.len();
+        (along.nodes[0], along.nodes[count]) = (ends[0], ends[1]);
+        for k in (0..self.inner.len()).rev() {
+            let Eliminated { inverse, with_first } = &self.inner[k];
+            let [[_, across], _] = &self.elements[self.pieces[k + 1]].blocks;
+            let by_first = apply(&transposed(with_first), along.nodes[0]);
+            let by_next = apply(across, along.nodes[k + 2]);
+            let rest = subtract(subtract(along.nodes[k + 1], by_first), by_next);
+            along.nodes[k + 1] = apply(inverse, rest);
+        }
+        let size = along.size;
+        for k in 0..count {
+            let own = &mut along.inner[k * size..(k + 1) * size];
+            self.elements[self.pieces[k]].unknowns([along.nodes[k], along.nodes[k + 1]], own);
+        }
+    }
+}
+
+impl Chain {
     /// The phase of the determinant of what was eliminated.
     pub(crate) fn phase(&self, components: usize) -> Complex {
         let elements =
@@ -82,22 +106,6 @@ impl Chain {
             loads.nodes[k + 2] = subtract(loads.nodes[k + 2], apply(&transposed(across), moved));
         }
         [loads.nodes[0], loads.nodes[self.pieces.len()]]
-    }
-
-    /// Turns loads that were reduced into the motion of everything between two ends.
-    pub(crate) fn motion(&self, ends: [Node; 2], along: &mut Along) {
-        let count = self.pieces.len();
-        (along.nodes[0], along.nodes[count]) = (ends[0], ends[1]);
-        for (k, eliminated) in self.inner.iter().enumerate().rev() {
-            let [[_, across], _] = &self.elements[self.pieces[k + 1]].blocks;
-            let by_first = apply(&transposed(&eliminated.with_first), along.nodes[0]);
-            let by_next = apply(across, along.nodes[k + 2]);
-            let rest = subtract(subtract(along.nodes[k + 1], by_first), by_next);
-            along.nodes[k + 1] = apply(&eliminated.inverse, rest);
-        }
-        for (k, (&piece, own)) in self.pieces.iter().zip(along.inner.chunks_exact_mut(along.size)).enumerate() {
-            self.elements[piece].unknowns([along.nodes[k], along.nodes[k + 1]], own);
-        }
     }
 }
 
@@ -163,7 +171,7 @@ fn times<T: Number>(a: &Block<T>, b: &Block<T>) -> Block<T> {
 }
 
 #[inline(always)]
-fn apply(a: &Block, x: Node) -> Node {
+fn apply<T: Number>(a: &Block<T>, x: Node<T>) -> Node<T> {
     [a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]]
 }
 
@@ -173,7 +181,7 @@ fn add(a: Node, b: Node) -> Node {
 }
 
 #[inline(always)]
-fn subtract(a: Node, b: Node) -> Node {
+fn subtract<T: Number>(a: Node<T>, b: Node<T>) -> Node<T> {
     [a[0] - b[0], a[1] - b[1]]
 }
 

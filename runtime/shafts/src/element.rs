@@ -2,7 +2,7 @@
 
 use eigentol_numerics::Complex;
 
-use crate::basis::{Class, MOST, SIGNS};
+use crate::basis::{Class, Entry, MOST, SIGNS};
 use crate::number::Number;
 use crate::section::TERMS;
 
@@ -11,7 +11,7 @@ pub(crate) type Block<T = Complex> = [[T; 2]; 2];
 /// The blocks between two ends.
 pub(crate) type Ends<T = Complex> = [[Block<T>; 2]; 2];
 /// The unknowns of a node: deflection and slope, or one of a bar.
-pub(crate) type Node = [Complex; 2];
+pub(crate) type Node<T = Complex> = [T; 2];
 
 /// The largest number of unknowns of a class.
 const SIZE: usize = MOST + 1;
@@ -28,12 +28,12 @@ pub(crate) struct Shape {
 /// An element at one `s` with its inner unknowns eliminated. Its unknowns are those of its two classes, one after the
 /// other, nodal unknowns first in each.
 #[derive(Clone, Debug)]
-pub(crate) struct Element {
+pub(crate) struct Element<T = Complex> {
     /// Between the two nodes.
-    pub(crate) blocks: Ends,
+    pub(crate) blocks: Ends<T>,
     /// Class by class for each inner unknown `p`: the inverse of its pivot, then the share of each unknown before it in
     /// `x_p = r_p / pivot_p - sum_j<p share_pj x_j`.
-    factors: Vec<Complex>,
+    factors: Vec<T>,
     sizes: [usize; 2],
     shape: Shape,
 }
@@ -45,20 +45,47 @@ impl Shape {
     }
 
     /// A nodal unknown of a class, from those of the two nodes.
-    fn amplitude(self, class: usize, component: usize, nodes: [Node; 2]) -> Complex {
+    #[inline(always)]
+    fn amplitude<T: Number>(self, class: usize, component: usize, nodes: [Node<T>; 2]) -> T {
         let [first, second] = SIGNS[class][component];
-        (nodes[0][component] * first + nodes[1][component] * second) * self.half(component)
+        (nodes[0][component].times(first) + nodes[1][component].times(second)).times(self.half(component))
     }
 }
 
-impl Element {
-    pub(crate) fn new(classes: &[Class; 2], shape: Shape, k: &[Complex; TERMS]) -> Self {
+impl<T: Number> Element<T> {
+    #[inline(always)]
+    pub(crate) fn new(classes: &[Class; 2], shape: Shape, k: &[T; TERMS]) -> Self {
         let mut factors = Vec::with_capacity(32);
-        let slope = (shape.slope != 1.0).then(|| shape.slope.into());
+        let slope = (shape.slope != 1.0).then(|| T::of(shape.slope.into()));
         let blocks = blocks(classes, (shape.components, slope), k, Some(&mut factors));
         Self { blocks, factors, sizes: [classes[0].size, classes[1].size], shape }
     }
 
+    /// All unknowns of the element from those of its nodes; `own` holds reduced loads on the inner ones.
+    #[inline(always)]
+    pub(crate) fn unknowns(&self, nodes: [Node<T>; 2], own: &mut [T]) {
+        let c = self.shape.components;
+        let (mut start, mut row) = (0, 0);
+        for (class, size) in self.sizes.into_iter().enumerate() {
+            let x = &mut own[start..start + size];
+            for component in 0..c {
+                x[component] = self.shape.amplitude(class, component, nodes);
+            }
+            for p in c..size {
+                let factors = &self.factors[row..row + p + 1];
+                let mut value = x[p] * factors[0];
+                for j in 0..p {
+                    value -= factors[j + 1] * x[j];
+                }
+                x[p] = value;
+                row += p + 1;
+            }
+            start += size;
+        }
+    }
+}
+
+impl Element {
     /// The phase of the determinant of what was eliminated.
     pub(crate) fn phase(&self) -> Complex {
         let mut phase = Complex::new(1.0, 0.0);
@@ -70,25 +97,6 @@ impl Element {
             }
         }
         phase
-    }
-
-    /// All unknowns of the element from those of its nodes; `own` holds reduced loads on the inner ones.
-    pub(crate) fn unknowns(&self, nodes: [Node; 2], own: &mut [Complex]) {
-        let c = self.shape.components;
-        let (mut rest, mut factors) = (own, &self.factors[..]);
-        for (class, size) in self.sizes.into_iter().enumerate() {
-            let (x, others) = rest.split_at_mut(size);
-            for (component, to) in x[..c].iter_mut().enumerate() {
-                *to = self.shape.amplitude(class, component, nodes);
-            }
-            for p in c..size {
-                let (row, next) = factors.split_at(p + 1);
-                let known: Complex = row[1..].iter().zip(&*x).map(|(share, x)| share * x).sum();
-                x[p] = x[p] * row[0] - known;
-                factors = next;
-            }
-            rest = others;
-        }
     }
 
     /// Loads on the nodes that do as loads on all unknowns; what acts on the inner ones is reduced in place, for
@@ -175,8 +183,8 @@ fn eliminated<T: Number, const ROOM: usize, const ENTRIES: usize>(
     let n = class.size;
     let place = |i: usize, j: usize| i * (i + 1) / 2 + j;
     let mut all = [T::zero(); ENTRIES];
-    for &(i, j, term, value) in &class.entries {
-        all[place(i, j)] += k[term].times(value);
+    for entry in &class.entries {
+        all[place(entry.row, entry.column)] = entry.value(k);
     }
     if let Some(keep) = &mut keep {
         let more = (components..n).map(|p| p + 1).sum::<usize>();
@@ -207,14 +215,20 @@ fn eliminated<T: Number, const ROOM: usize, const ENTRIES: usize>(
 }
 
 /// `left^T Q x` for each constant matrix.
-pub(crate) fn forms(classes: &[Class; 2], left: &[Complex], right: &[Complex]) -> [Complex; TERMS] {
-    let mut forms = [Complex::ZERO; TERMS];
+#[inline(always)]
+pub(crate) fn forms<T: Number>(classes: &[Class; 2], left: &[T], right: &[T]) -> [T; TERMS] {
+    let mut forms = [T::zero(); TERMS];
     let mut start = 0;
     for class in classes {
         let (left, right) = (&left[start..], &right[start..]);
-        for &(i, j, term, value) in &class.entries {
-            let product = if i == j { left[i] * right[i] } else { left[i] * right[j] + left[j] * right[i] };
-            forms[term] += product * value;
+        for Entry { row, column, terms } in &class.entries {
+            let mut product = left[*row] * right[*column];
+            if row != column {
+                product += left[*column] * right[*row];
+            }
+            for &(term, value) in terms {
+                forms[term] += product.times(value);
+            }
         }
         start += class.size;
     }
@@ -222,12 +236,13 @@ pub(crate) fn forms(classes: &[Class; 2], left: &[Complex], right: &[Complex]) -
 }
 
 /// Loads on all unknowns: the sum of the constant matrices times their coefficients, on a motion.
-pub(crate) fn loads(classes: &[Class; 2], k: &[Complex; TERMS], x: &[Complex], loads: &mut [Complex]) {
+#[inline(always)]
+pub(crate) fn loads<T: Number>(classes: &[Class; 2], k: &[T; TERMS], x: &[T], loads: &mut [T]) {
     let mut start = 0;
     for class in classes {
         let (x, loads) = (&x[start..], &mut loads[start..]);
-        for &(i, j, term, value) in &class.entries {
-            let factor = k[term] * value;
+        for entry in &class.entries {
+            let (i, j, factor) = (entry.row, entry.column, entry.value(k));
             loads[i] += factor * x[j];
             if i != j {
                 loads[j] += factor * x[i];

@@ -4,12 +4,14 @@
 //! factorisation. Each is then refined with the condensed `T(s)`: two-sided Newton steps converge cubically (K. Schreiber,
 //! "Nonlinear Eigenvalue Problems: Newton-type Methods and Nonlinear Rayleigh Functionals", 2008).
 
+use eigentol_contract::scalar::Real as _;
 use eigentol_numerics::Complex;
 use eigentol_numerics::algebra::{Lu, Matrix, Vector, add_to, dot, dot_complex};
 use eigentol_numerics::eigenproblem::general::hessenberg_eigenvalues;
 
-use crate::assembly::{Assembly, At, SpanGradient};
+use crate::assembly::{Assembly, At};
 use crate::error::Error;
+use crate::gradients::{Form, SpanForm};
 use crate::motion::{Kept, Motion, Side};
 use crate::pencil::Pencil;
 use crate::section::Line;
@@ -25,12 +27,17 @@ pub struct Mode {
     pub left: Vector<Complex>,
 }
 
+/// A mode, and `T` with its derivative at its `s`.
+pub type Found = (Mode, Pencil);
+
 /// Steps of inverse iteration before them.
 const TURNS: usize = 4;
 /// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
 const CLOSE: f64 = 1e-9;
+/// What is left as a part of `s` that counts as nothing: of steps that shrink by a factor, at most that of the last two times the last.
+const EXACT: f64 = 1e-14;
 /// A relative step behind which the next, unless it is much smaller, is rounding in any motion ([`jitter`]).
 const STAYS: f64 = 1e-7;
 /// The square of an eigenvalue that is rounding, as a part of the terms that cancel in it.
@@ -77,21 +84,35 @@ impl Assembly {
     ///
     /// # Errors
     /// [`Error::NotConverged`].
-    pub fn modes(&self, count: usize) -> Result<Vec<Mode>, Error> {
+    pub fn modes(&self, count: usize) -> Result<Vec<Found>, Error> {
         let rigid = self.rigid();
         // Where one of them has been lost, a larger space knows it better.
         for more in [2, 8] {
             let wanted = |s: Complex| s.im > rigid && !self.gathers(s);
             let (mut modes, lost) = self.of_krylov((count + more, count), wanted)?;
-            modes.sort_by(|a, b| a.s.norm().total_cmp(&b.s.norm()));
+            modes.sort_by(|(a, _), (b, _)| a.s.norm().total_cmp(&b.s.norm()));
             modes.truncate(count);
-            let complete = modes.len() == count && modes.iter().all(|mode| mode.s.norm() < lost);
-            modes.sort_by(|a, b| a.s.im.total_cmp(&b.s.im));
+            let complete = modes.len() == count && modes.iter().all(|(mode, _)| mode.s.norm() < lost);
+            modes.sort_by(|(a, _), (b, _)| a.s.im.total_cmp(&b.s.im));
             if complete || lost.is_infinite() {
                 return Ok(modes);
             }
         }
         Err(Error::NotConverged)
+    }
+
+    /// Whether these eigenvalues are all that the search would find below the greatest of them, as far as a Krylov space tells.
+    #[must_use]
+    pub fn has_all(&self, known: &[Complex]) -> bool {
+        let rigid = self.rigid();
+        let wanted = |s: Complex| s.im > rigid && !self.gathers(s);
+        let Ok(found) = self.krylov((known.len() + 2, known.len()), &wanted) else { return false };
+        let greatest = known.iter().map(|s| s.norm()).fold(0.0, f64::max);
+        let is_known = |own: &Ritz| {
+            let reach = (FAR * own.rest).max(SAME) * own.s.norm();
+            own.rest < KNOWN && known.iter().any(|s| (s - own.s).norm() < reach)
+        };
+        found.iter().filter(|own| own.s.norm() < greatest * (1.0 - NEAR)).all(is_known)
     }
 
     /// The number of motions that grow without oscillating, as on springs that push away, at rates up to those of the lowest
@@ -105,35 +126,35 @@ impl Assembly {
     }
 
     /// The wanted modes of a Krylov space, made exact, and the least size of an approximation that led to none.
-    fn of_krylov(&self, count: (usize, usize), wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Mode>, f64), Error> {
+    fn of_krylov(&self, count: (usize, usize), wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Found>, f64), Error> {
         let found = self.krylov(count, &wanted)?;
         let near: Vec<Complex> = found.iter().map(|own| own.s).collect();
         let starts = found.iter().zip(self.pencils(&near)).map(|(own, pencil)| {
             let stations = own.stations.clone()?;
             let (factors, pencil, _) = self.factored_beside(own.s, pencil)?;
             let start = turned(&pencil, &factors, own.s, stations);
-            let next = self.step(start.clone(), pencil).filter(|(_, step)| *step < CONVERGED);
-            Some(next.map_or(start, |(mode, _)| mode))
+            let next = self.step(start.clone(), pencil).filter(|(_, step, _)| *step < CONVERGED);
+            Some(next.map_or(start, |(mode, ..)| mode))
         });
         let starts: Vec<Mode> = starts.collect::<Option<_>>().ok_or(Error::NotConverged)?;
-        let (mut modes, mut lost): (Vec<Mode>, _) = (Vec::new(), f64::INFINITY);
-        for ((mode, start), own) in self.refined(&starts).into_iter().zip(starts).zip(&found) {
+        let (mut modes, mut lost): (Vec<Found>, _) = (Vec::new(), f64::INFINITY);
+        for ((found, start), own) in self.refined(&starts).into_iter().zip(starts).zip(&found) {
             // What a space knows well is not another mode: steps from there may have gone to one.
             let reach = (FAR * own.rest).max(NEAR) * own.s.norm();
-            let stays = |mode: &Mode| (mode.s - own.s).norm() < reach || own.rest > CONVERGED;
-            let mode = mode.filter(stays).or_else(|| {
+            let stays = |(mode, _): &Found| (mode.s - own.s).norm() < reach || own.rest > CONVERGED;
+            let found = found.filter(stays).or_else(|| {
                 let again = Mode { s: own.s, ..start };
                 self.with_all_unknowns(&again, AGAIN).filter(stays)
             });
-            let Some(mode) = mode else {
+            let Some((mode, pencil)) = found else {
                 if own.s.norm() > SLOW * self.rigid() {
                     lost = lost.min(own.s.norm());
                 }
                 continue;
             };
             // Both of two equal ones are found with the first.
-            if wanted(mode.s) && !modes.iter().any(|other| other.is_near(&mode)) {
-                modes.push(mode);
+            if wanted(mode.s) && !modes.iter().any(|(other, _)| other.is_near(&mode)) {
+                modes.push((mode, pencil));
             }
         }
         for _ in 0..EQUAL {
@@ -142,10 +163,9 @@ impl Assembly {
                 break;
             }
             modes.extend(others);
-            let mut all: Vec<&mut Mode> = modes.iter_mut().collect();
-            self.separate_each(&mut all);
+            self.separate_each(&mut modes.iter_mut().collect::<Vec<_>>());
         }
-        modes.retain(|mode| wanted(mode.s));
+        modes.retain(|(mode, _)| wanted(mode.s));
         Ok((modes, lost))
     }
 
@@ -187,20 +207,23 @@ impl Assembly {
     /// Another mode with an eigenvalue near each of these, where there is one: of a round rotor at rest each has an equal one, at
     /// low speeds a near one, and a Krylov space may know one of them only. It is what inverse iteration leaves of a motion
     /// without the known modes, where that is anything.
-    fn others(&self, modes: &[Mode]) -> Vec<Mode> {
+    fn others(&self, modes: &[Found]) -> Vec<Found> {
         let near = |a: &Mode, b: &Mode| (a.s - b.s).norm() < APART / ALONE * a.s.norm();
-        let first = |k: &usize| !modes[..*k].iter().any(|other| near(other, &modes[*k]));
-        let places: Vec<usize> = (0..modes.len()).filter(first).collect();
-        let s: Vec<Complex> = places.iter().map(|k| modes[*k].s * (1.0 + APART)).collect();
         let mut starts = Vec::new();
-        for ((place, pencil), s) in places.into_iter().zip(self.pencils(&s)).zip(s) {
-            let Some(factors) = factored(&pencil) else { continue };
+        for (k, (mode, pencil)) in modes.iter().enumerate() {
+            if modes[..k].iter().any(|(other, _)| near(other, mode)) {
+                continue;
+            }
+            let aside = mode.s * APART;
+            let mut matrix = pencil.matrix.clone();
+            add_scaled(&mut matrix, aside, &pencil.slope);
+            let Some(factors) = Lu::of(matrix) else { continue };
             let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0, 0.3 * (k % 3) as f64));
             let mut right = factors.solve(&ones);
             let mut left = factors.solve_transposed(&ones);
             normalised(&mut right);
             normalised(&mut left);
-            for known in modes.iter().filter(|other| near(&modes[place], other)) {
+            for (known, _) in modes.iter().filter(|(other, _)| near(mode, other)) {
                 let moved = times(&pencil.slope, &known.right);
                 let below = dot_complex(&known.left, &moved);
                 let share = dot_complex(&known.left, &times(&pencil.slope, &right)) / below;
@@ -210,14 +233,14 @@ impl Assembly {
             }
             // What is left where no other is near is smaller by the distance from the known one as a part of that to the next.
             if normalised(&mut right) < 1.0 / ALONE && normalised(&mut left) < 1.0 / ALONE {
-                starts.push(Mode { s, right, left });
+                starts.push(Mode { s: mode.s + aside, right, left });
             }
         }
         // Once more: beside an eigenvalue already the first step is small.
-        let once: Vec<Mode> = self.refined(&starts).into_iter().flatten().collect();
-        let mut others: Vec<Mode> = Vec::new();
+        let once: Vec<Mode> = self.refined(&starts).into_iter().flatten().map(|(mode, _)| mode).collect();
+        let mut others: Vec<Found> = Vec::new();
         for found in self.refined(&once).into_iter().flatten() {
-            if !modes.iter().chain(&others).any(|known| known.is_same(&found)) {
+            if !modes.iter().chain(&others).any(|(known, _)| known.is_same(&found.0)) {
                 others.push(found);
             }
         }
@@ -226,10 +249,9 @@ impl Assembly {
 
     /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span.
     #[must_use]
-    pub fn slopes(&self, mode: &Mode) -> Vec<SpanGradient> {
+    pub fn slopes(&self, mode: &Mode) -> Vec<SpanForm> {
         let Mode { s, right, left } = mode;
-        let condensed = self.condensed(*s);
-        let mut all = self.gradient(&condensed.weights(left), &condensed.motion(right), *s);
+        let mut all = self.gradients(&[Form { left, s: *s, right }]).swap_remove(0);
         let by_s = all.iter().map(|own| own.rate).sum::<Complex>() + self.slope_of_stations(left, *s, right);
         for own in &mut all {
             own.rate /= -by_s;
@@ -240,10 +262,10 @@ impl Assembly {
     }
 
     /// Modes from approximations, for example those at a neighbouring speed or design, by Newton's method side by side in the
-    /// vectors of the processor; `None` for one that does not converge. The bits of each do not depend on the others, but of those
-    /// that are nearly equal.
+    /// vectors of the processor, each with the pencil at its `s`; `None` for one that does not converge. The bits of each do not
+    /// depend on the others, but of those that are nearly equal.
     #[must_use]
-    pub fn refined(&self, starts: &[Mode]) -> Vec<Option<Mode>> {
+    pub fn refined(&self, starts: &[Mode]) -> Vec<Option<Found>> {
         let mut running: Vec<(usize, Mode, f64)> =
             starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), f64::INFINITY)).collect();
         let mut found = vec![None; starts.len()];
@@ -255,11 +277,12 @@ impl Assembly {
             let s: Vec<Complex> = running.iter().map(|(_, mode, _)| mode.s).collect();
             let mut next = Vec::with_capacity(running.len());
             for ((place, mode, last), pencil) in running.into_iter().zip(self.pencils(&s)) {
-                let Some((mode, step)) = self.step(mode, pencil) else { continue };
+                let Some((mode, step, pencil)) = self.step(mode, pencil) else { continue };
                 // What remains is the cube of the last step, or rounding where steps no longer shrink.
                 let stays = step > 0.1 * last && step.max(last) < jitter(mode.s, terms);
-                if step < CLOSE || stays {
-                    found[place] = Some(mode);
+                let is_exact = step < CLOSE || last.is_finite() && step * step < EXACT * last;
+                if is_exact || stays {
+                    found[place] = Some((mode, pencil));
                 } else {
                     next.push((place, mode, step));
                 }
@@ -269,12 +292,11 @@ impl Assembly {
         for (place, found) in found.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
             *found = self.with_all_unknowns(&starts[place], 2);
         }
-        let mut all: Vec<&mut Mode> = found.iter_mut().flatten().collect();
-        self.separate_each(&mut all);
+        self.separate_each(&mut found.iter_mut().flatten().collect::<Vec<_>>());
         found
     }
 
-    fn separate_each(&self, modes: &mut [&mut Mode]) {
+    fn separate_each(&self, modes: &mut [&mut Found]) {
         for k in 0..modes.len() {
             let (before, own) = modes.split_at_mut(k);
             before.iter_mut().for_each(|other| self.separate(other, own[0]));
@@ -283,7 +305,8 @@ impl Assembly {
 
     /// Makes two modes with nearly the same eigenvalue exact: where that is far from all others, steps are small for any
     /// combination of the two. Those that are modes follow from the two alone (Rayleigh and Ritz).
-    fn separate(&self, a: &mut Mode, b: &mut Mode) {
+    fn separate(&self, first: &mut Found, second: &mut Found) {
+        let (a, b) = (&first.0, &second.0);
         if (a.s - b.s).norm() > BLENDED * a.s.norm() {
             return;
         }
@@ -319,16 +342,17 @@ impl Assembly {
         let both = [combined(half + root), combined(half - root)];
         let exact = both.map(|mode| {
             let pencil = self.pencils(&[mode.s]).pop()?;
-            self.step(mode, pencil).filter(|(_, step)| *step < CLOSE)
+            let (mode, step, pencil) = self.step(mode, pencil)?;
+            (step < CLOSE).then_some((mode, pencil))
         });
-        if let [Some((first, _)), Some((second, _))] = exact {
-            (*a, *b) = (first, second);
+        if let [Some(one), Some(other)] = exact {
+            (*first, *second) = (one, other);
         }
     }
 
     /// The same with all unknowns in place of those of the stations: `T` has poles where spans vibrate between stations that
     /// stand still, and next to one Newton's method leaves it. So many steps do not move `s`.
-    fn with_all_unknowns(&self, start: &Mode, turns: usize) -> Option<Mode> {
+    fn with_all_unknowns(&self, start: &Mode, turns: usize) -> Option<Found> {
         let (mut s, terms) = (start.s, self.terms());
         let at = self.beside(s)?;
         let (mut right, mut left) = (at.condensed.motion(&start.right), at.condensed.weights(&start.left));
@@ -360,7 +384,7 @@ impl Assembly {
                 let (mut right, mut left) = (right.stations, left.stations);
                 normalised(&mut right);
                 normalised(&mut left);
-                return Some(Mode { s, right, left });
+                return Some((Mode { s, right, left }, self.pencils(&[s]).pop()?));
             }
         }
         None
@@ -382,10 +406,10 @@ impl Assembly {
         })
     }
 
-    /// A two-sided Newton step, and its size relative to `s`.
-    fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64)> {
+    /// A two-sided Newton step, its size relative to `s`, and the pencil behind it, as far as the step is small.
+    fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64, Pencil)> {
         let Mode { mut s, right, left } = mode;
-        let (factors, pencil, is_exact) = self.factored_beside(s, pencil)?;
+        let (factors, mut pencil, is_exact) = self.factored_beside(s, pencil)?;
         // T(s) right = on, so that on is what is left of the equations.
         let on = times(&pencil.slope, &right);
         let mut right = factors.solve(&on);
@@ -395,9 +419,11 @@ impl Assembly {
         let rest = dot_complex(&left, &on) * size;
         let change = rest / dot_complex(&left, &times(&pencil.slope, &right));
         // Where rounding is all that is left of the determinant, `s` is as exact as it can be.
-        s -= if is_exact { Complex::ZERO } else { change };
-        let step = if is_exact { 0.0 } else { change.norm() / s.norm() };
-        step.is_finite().then_some((Mode { s, right, left }, step))
+        let change = if is_exact { Complex::ZERO } else { change };
+        s -= change;
+        let step = change.norm() / s.norm();
+        add_scaled(&mut pencil.matrix, -change, &pencil.slope);
+        step.is_finite().then_some((Mode { s, right, left }, step, pencil))
     }
 
     /// The mode nearest to a value of `s`, as far as the stations move in it.
@@ -409,7 +435,7 @@ impl Assembly {
         let factors = factored(&pencil).ok_or(Error::NotConverged)?;
         let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0 + 0.1 * k as f64, 0.0));
         let start = turned(&pencil, &factors, s, factors.solve(&ones));
-        self.refined(&[start]).pop().flatten().ok_or(Error::NotConverged)
+        self.refined(&[start]).pop().flatten().map(|(mode, _)| mode).ok_or(Error::NotConverged)
     }
 
     /// Wanted eigenvalues near a shift and the motions of the stations, the nearest first. A shift far from all of them does not
@@ -496,21 +522,10 @@ impl Assembly {
             let w = at.solve_real(loads);
             x.add(shift, &w);
             let mut next = space.flat(&w, &x);
-            let before = product(&next, &next).sqrt();
-            let mut column = vec![0.0; k + 2];
-            for _ in 0..2 {
-                let shares: Vec<f64> = space.basis.iter().map(|own| product(own, &next)).collect();
-                for ((own, share), to) in space.basis.iter().zip(&shares).zip(&mut column) {
-                    *to += share;
-                    add_to(&mut next, -share, own);
-                }
-                // What is not much shorter than before has lost nothing to rounding.
-                if product(&next, &next).sqrt() > 0.1 * before {
-                    break;
-                }
-            }
-            let rest = normalise(&mut next);
-            column[k + 1] = if rest <= 1e-13 * before { 0.0 } else { rest };
+            let column = f64::run(
+                #[inline(always)]
+                || orthogonalised(&space.basis, &mut next),
+            );
             space.columns.push(column);
             space.basis.push(next);
         }
@@ -555,6 +570,11 @@ fn turned(pencil: &Pencil, factors: &Lu<Complex>, s: Complex, stations: Vector<C
 
 fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
     matrix.iter().map(|row: &[Complex]| dot_complex(row, x)).collect()
+}
+
+fn add_scaled(to: &mut Matrix<Complex>, factor: Complex, from: &Matrix<Complex>) {
+    let entries = to.as_flattened_mut().iter_mut().zip(from.as_flattened());
+    entries.for_each(|(to, from)| *to += factor * from);
 }
 
 fn times_transposed(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
@@ -675,7 +695,29 @@ fn inverse_iteration(hessenberg: &Matrix, size: usize, value: Complex) -> Vector
     y
 }
 
+/// Takes out of a vector what is along those of a basis, and scales it to one. Returns its shares along them, and then what was left.
+#[inline(always)]
+fn orthogonalised(basis: &[Vec<f64>], next: &mut [f64]) -> Vec<f64> {
+    let before = product(next, next).sqrt();
+    let mut column = vec![0.0; basis.len() + 1];
+    for _ in 0..2 {
+        for (own, to) in basis.iter().zip(&mut column) {
+            let share = product(own, next);
+            *to += share;
+            add_to(next, -share, own);
+        }
+        // What is not much shorter than before has lost nothing to rounding.
+        if product(next, next).sqrt() > 0.1 * before {
+            break;
+        }
+    }
+    let rest = normalise(next);
+    column[basis.len()] = if rest <= 1e-13 * before { 0.0 } else { rest };
+    column
+}
+
 /// The scalar product, from eight sums side by side.
+#[inline(always)]
 fn product(a: &[f64], b: &[f64]) -> f64 {
     let (ahead, bhead) = (a.chunks_exact(8), b.chunks_exact(8));
     let mut sums = [0.0; 8];
@@ -688,6 +730,7 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+#[inline(always)]
 fn normalise(x: &mut [f64]) -> f64 {
     let norm = product(x, x).sqrt();
     x.iter_mut().for_each(|x| *x /= norm);

@@ -7,7 +7,7 @@ use crate::assembly::Assembly;
 use crate::chain::joined;
 use crate::element::{Ends, blocks};
 use crate::number::{Number, Pair};
-use crate::section::{Coefficients, TERMS};
+use crate::section::at;
 
 /// `T` and its derivative at one `s`.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ impl Assembly {
         for group in all.chunks(WIDTH) {
             let at = |of: fn(&Complex) -> f64| Batch::from_fn(|lane| of(group.get(lane).unwrap_or(&group[0])));
             let s = [at(|s| s.re), at(|s| s.im)];
-            let found = Instructions::best().run(Condense { assembly: self, s: &s });
+            let found = Instructions::best().run(Condense { assembly: self, count: group.len(), s: &s });
             for (lane, &s) in group.iter().enumerate() {
                 let [mut matrix, mut slope] = self.of_stations(s);
                 let mut chains = found.iter();
@@ -61,6 +61,7 @@ fn ends(entries: &Entries, lane: usize, part: usize) -> Ends {
 /// The blocks between the ends of each span in each direction.
 struct Condense<'a> {
     assembly: &'a Assembly,
+    count: usize,
     s: &'a [Batch; 2],
 }
 
@@ -69,10 +70,10 @@ impl Task for Condense<'_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) -> Vec<Entries> {
-        let Self { assembly, s } = self;
+        let Self { assembly, count, s } = self;
         let chains: usize = assembly.spans().iter().map(|span| span.directions().len()).sum();
         let mut all = vec![[[Batch::default(); 4]; 16]; chains];
-        for at in (0..WIDTH).step_by(V::WIDTH) {
+        for at in (0..count).step_by(V::WIDTH) {
             let s = Pair {
                 re: Dual { value: V::load(&s[0], at), slope: V::constant(1.0) },
                 im: Dual { value: V::load(&s[1], at), slope: V::constant(0.0) },
@@ -118,13 +119,4 @@ fn between<R: Real>(assembly: &Assembly, span: usize, direction: usize, s: Pair<
         ends = joined(ends, &elements[piece], components).0;
     }
     ends
-}
-
-#[inline(always)]
-fn at<T: Number>(coefficients: &Coefficients, s: T) -> [T; TERMS] {
-    let mut all = [T::zero(); TERMS];
-    for (to, [a, b, c]) in all.iter_mut().zip(coefficients) {
-        *to = T::of(*a) + s * (T::of(*b) + s * T::of(*c));
-    }
-    all
 }

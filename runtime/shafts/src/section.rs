@@ -163,12 +163,20 @@ impl Section {
 
 /// The coefficients at `s`.
 #[inline(always)]
-pub(crate) fn at(coefficients: &Coefficients, s: Complex) -> [Complex; TERMS] {
-    core::array::from_fn(|m| coefficients[m][0] + s * (coefficients[m][1] + s * coefficients[m][2]))
+pub(crate) fn at<T: Field>(coefficients: &Coefficients, s: T) -> [T; TERMS] {
+    let mut all = [T::zero(); TERMS];
+    for (to, [a, b, c]) in all.iter_mut().zip(coefficients) {
+        *to = T::of(*a) + s * (T::of(*b) + s * T::of(*c));
+    }
+    all
 }
 
 /// Their derivatives by `s`.
 #[inline(always)]
-pub(crate) fn slope_at(coefficients: &Coefficients, s: Complex) -> [Complex; TERMS] {
-    core::array::from_fn(|m| coefficients[m][1] + 2.0 * s * coefficients[m][2])
+pub(crate) fn slope_at<T: Field>(coefficients: &Coefficients, s: T) -> [T; TERMS] {
+    let mut all = [T::zero(); TERMS];
+    for (to, [_, b, c]) in all.iter_mut().zip(coefficients) {
+        *to = T::of(*b) + s * T::of(2.0 * c);
+    }
+    all
 }

@@ -60,7 +60,7 @@ impl Assembly {
             };
             let numbers = (0..all[0].numbers.len()).map(|k| batches(&|own| own.numbers[k])).collect();
             let s = [0, 1].map(|part| batches(&|own| own.s[part]));
-            let chains = Instructions::best().run(Vary { assembly: self, numbers, s });
+            let chains = Instructions::best().run(Vary { assembly: self, count: group.len(), numbers, s });
             found.extend((0..group.len()).map(|lane| {
                 let n = self.stations();
                 let mut changes = [(); PARTS].map(|()| Matrix::zeros(n, n));
@@ -96,6 +96,7 @@ type Entries = [[[Batch; PARTS]; 2]; ENTRIES];
 /// The blocks between the ends of each span in each direction.
 struct Vary<'a> {
     assembly: &'a Assembly,
+    count: usize,
     numbers: Vec<[Batch; PARTS]>,
     s: [[Batch; PARTS]; 2],
 }
@@ -105,11 +106,11 @@ impl Task for Vary<'_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) -> Vec<Entries> {
-        let Self { assembly, numbers, s } = self;
+        let Self { assembly, count, numbers, s } = self;
         let chains: usize = assembly.spans().iter().map(|span| span.directions().len()).sum();
         let mut all = vec![[[[Batch::default(); PARTS]; 2]; ENTRIES]; chains];
         let mut loaded = Vec::with_capacity(numbers.len());
-        for at in (0..WIDTH).step_by(V::WIDTH) {
+        for at in (0..count).step_by(V::WIDTH) {
             loaded.clear();
             for number in &numbers {
                 loaded.push(load::<V>(number, at));

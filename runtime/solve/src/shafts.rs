@@ -6,7 +6,8 @@
 //! vibrations of a mechanism with shafts are those of `T`; its equilibrium is that of the compiled equations.
 
 use eigentol_contract::{LineKind, SpanInfo};
-use eigentol_shafts::{Assembly, Chains, LUMPED, Line, Number, Section, Span, SpanGradient, lumped};
+pub use eigentol_shafts::Form;
+use eigentol_shafts::{Assembly, LUMPED, Line, Number, Section, Span, SpanForm, lumped};
 
 mod along;
 
@@ -28,8 +29,6 @@ pub struct Shafts {
     pub(crate) whole: Assembly,
     /// Spans alone.
     pub(crate) spans: Assembly,
-    /// Spans at rest.
-    still: Chains,
 }
 
 /// Derivatives of `left^T T(s) right` for two vectors.
@@ -108,8 +107,7 @@ impl Shafts {
         let degree = if slender { SLENDER } else { DEGREE };
         let zeros = || [(); 3].map(|()| Matrix::zeros(n, n));
         let alone = Assembly::new(spans.clone(), zeros(), degree).map_err(wrong)?;
-        let still = alone.chains(Complex::ZERO);
-        let at_rest = alone.condensed_with(Complex::ZERO, &still).matrix();
+        let at_rest = alone.condensed(Complex::ZERO).matrix();
         let at_rest = Matrix::from_fn(n, n, |i, j| at_rest[i][j].re);
         let linear = &at.linear;
         let mut mass = linear.mass.clone();
@@ -123,7 +121,7 @@ impl Shafts {
         }
         let stiffness = Matrix::from_fn(n, n, |i, j| linear.stiffness[i][j] - at_rest[i][j]);
         let whole = Assembly::new(spans, [mass, linear.damping.clone(), stiffness], degree).map_err(wrong)?;
-        Ok(Some(Self { whole, spans: alone, still }))
+        Ok(Some(Self { whole, spans: alone }))
     }
 
     /// `T(s)`.
@@ -148,21 +146,33 @@ impl Shafts {
         Matrix::from_fn(n, n, |i, j| columns[j][i])
     }
 
-    /// Derivatives of `left^T T(s) right`.
+    /// Derivatives of `left^T T(s) right` for each of these.
     #[must_use]
-    pub fn gradient(&self, left: &[Complex], s: Complex, right: &[Complex]) -> FormGradient {
-        let at = |s: Complex, chains: &Chains| {
-            let condensed = self.spans.condensed_with(s, chains);
-            self.spans.gradient(&condensed.weights(left), &condensed.motion(right), s)
+    pub fn gradients(&self, all: &[Form<'_>]) -> Vec<FormGradient> {
+        let still = all.iter().map(|form| Form { s: Complex::ZERO, ..*form });
+        let mut moving = self.spans.gradients(&all.iter().copied().chain(still).collect::<Vec<_>>());
+        let still = moving.split_off(all.len());
+        let gradient = |((form, moving), still): ((&Form<'_>, &Vec<SpanForm>), &Vec<SpanForm>)| {
+            let Form { left, s, right } = *form;
+            let mut by_number = Vec::new();
+            for ((span, moving), still) in self.spans.spans().iter().zip(moving).zip(still) {
+                by_number.extend(of_span(span, moving, still, |i| s * s * left[i] * right[i]));
+            }
+            let of_spans: Complex = moving.iter().map(|own| own.rate).sum();
+            FormGradient {
+                by_number: by_number.into(),
+                by_s: self.whole.slope_of_stations(left, s, right) + of_spans,
+            }
         };
-        let (moving, still) = (at(s, &self.spans.chains(s)), at(Complex::ZERO, &self.still));
-        let mut all = Vec::new();
-        for ((span, moving), still) in self.spans.spans().iter().zip(&moving).zip(&still) {
-            all.extend(of_span(span, moving, still, |i| s * s * left[i] * right[i]));
-        }
-        let of_spans: Complex = moving.iter().map(|own| own.rate).sum();
-        FormGradient { by_number: all.into(), by_s: self.whole.slope_of_stations(left, s, right) + of_spans }
+        all.iter().zip(&moving).zip(&still).map(gradient).collect()
     }
+}
+
+/// `psi_a^T T(s_b) phi_b` of two modes.
+#[doc(hidden)]
+#[must_use]
+pub fn form<'a>(a: &'a Mode, b: &'a Mode) -> Form<'a> {
+    Form { left: a.left(), s: b.s, right: &b.shape }
 }
 
 /// Shafts with the derivatives of their numbers.
@@ -184,28 +194,18 @@ impl ShaftSlopes {
         Ok(Shafts::of(at)?.map(with_slopes))
     }
 
-    /// Adds the derivatives of `left^T T(s) right` by each input and then each design variable, at fixed compiled matrices.
-    /// Returns that by `s`.
-    #[doc(hidden)]
-    pub fn add(&self, left: &[Complex], s: Complex, right: &[Complex], mut add: impl FnMut(usize, Complex)) -> Complex {
-        let FormGradient { by_number, by_s } = self.shafts.gradient(left, s, right);
-        (0..self.slopes.row_count()).for_each(|k| add(k, self.along(&by_number, k)));
-        by_s
-    }
-
-    /// A derivative by an input, or behind these by a design variable, from those by numbers.
+    /// A derivative by an input, or behind these by a design variable, from those by numbers, at fixed compiled matrices.
     #[doc(hidden)]
     #[must_use]
     pub fn along(&self, gradient: &[Complex], variable: usize) -> Complex {
         self.slopes[variable].iter().zip(gradient).map(|(slope, by_number)| by_number * slope).sum()
     }
 
-    /// Derivatives of `psi_i^T T(s_j) phi_j` by the numbers of the spans, for each two of these modes, row by row.
+    /// Derivatives of `psi^T T(s) phi` of each mode.
     #[doc(hidden)]
     #[must_use]
-    pub fn between(&self, modes: &[&Mode]) -> Vec<Vector<Complex>> {
-        let each = modes.iter().flat_map(|a| modes.iter().map(move |b| (a, b)));
-        each.map(|(a, b)| self.shafts.gradient(a.left(), b.s, &b.shape).by_number).collect()
+    pub fn of_modes(&self, modes: &[Mode]) -> Vec<FormGradient> {
+        self.shafts.gradients(&modes.iter().map(|mode| form(mode, mode)).collect::<Vec<_>>())
     }
 }
 
@@ -255,8 +255,8 @@ fn span(info: &SpanInfo, own: &[f64]) -> Span {
 /// unknown is `s^2 left right`.
 fn of_span(
     span: &Span,
-    moving: &SpanGradient,
-    still: &SpanGradient,
+    moving: &SpanForm,
+    still: &SpanForm,
     weight: impl Fn(usize) -> Complex,
 ) -> Vec<Complex> {
     let sum = |of: fn(&Section) -> f64| span.sections.iter().map(|(own, _)| of(own)).sum::<f64>();

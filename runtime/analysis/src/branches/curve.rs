@@ -275,7 +275,7 @@ impl<'a> Curve<'a> {
         state.iterations = iterations;
         let near = self.followed.borrow().modes().to_vec();
         if let Some((stability, modes)) = judge_shafts(self.mechanism, &mut state, &near, true) {
-            self.followed.borrow_mut().take(at.p, &modes);
+            self.followed.borrow_mut().take(at.p, &state, &modes);
             state.stability = stability;
             return Ok(SolvedState { state, modes });
         }

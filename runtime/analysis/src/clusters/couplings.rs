@@ -7,7 +7,7 @@ use crate::kernels::{DirectionalKernels, Kernels, Linear};
 use crate::modes::{Family, pencil_times};
 use crate::scalar::Real as _;
 use crate::sensitivity::{check_modes, directions, normaliser};
-use crate::shafts::ShaftSlopes;
+use crate::shafts::{FormGradient, ShaftSlopes, form};
 use crate::tolerance::Tolerances;
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
@@ -217,7 +217,8 @@ fn of_family<'a>(family: Family, members: &'a [&'a Mode]) -> &'a [&'a Mode] {
 struct General<'a> {
     members: &'a [&'a Mode],
     normalisers: Vec<Complex>,
-    shafts: Option<(Box<ShaftSlopes>, Vec<Vector<Complex>>)>,
+    /// For each two modes, row by row, the derivatives of `psi_i^T T(s_j) phi_j`.
+    shafts: Option<(Box<ShaftSlopes>, Vec<FormGradient>)>,
 }
 
 impl<'a> General<'a> {
@@ -225,7 +226,8 @@ impl<'a> General<'a> {
         let shafts = ShaftSlopes::of(mechanism, at)?;
         let normalisers = members.iter().map(|a| normaliser(at, shafts.as_deref(), a)).collect();
         let shafts = shafts.map(|shafts| {
-            let between = shafts.between(members);
+            let each = members.iter().flat_map(|a| members.iter().map(move |b| form(a, b)));
+            let between = shafts.shafts.gradients(&each.collect::<Vec<_>>());
             (shafts, between)
         });
         Ok(Self { members, normalisers, shafts })
@@ -239,7 +241,7 @@ impl<'a> General<'a> {
         let moved: Vec<_> = members.iter().map(|b| pencil_times(change, b.s, &b.shape)).collect();
         Matrix::from_fn(count, count, |i, j| {
             let compiled = dot_complex(members[i].left(), &moved[j]);
-            let of_shafts = shafts.as_ref().map(|(shafts, between)| shafts.along(&between[i * count + j], variable));
+            let of_shafts = shafts.as_ref().map(|(shafts, between)| shafts.along(&between[i * count + j].by_number, variable));
             -(compiled + of_shafts.unwrap_or_default()) / normalisers[i]
         })
     }

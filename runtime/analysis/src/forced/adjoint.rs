@@ -16,6 +16,7 @@ use crate::kernels::{Gradient, Kernel, Kernels, Sizes};
 use crate::modes::pencil_slope_times;
 use crate::scalar::Real as _;
 use crate::sensitivity::{BilinearForm, ComplexGradient};
+use crate::shafts::Form;
 use crate::{Complex, Equilibrium};
 
 /// One output of a harmonic and its adjoint.
@@ -127,11 +128,14 @@ pub(super) fn gradients(solved: &Solved<'_>, vibration: &Vibration, outputs: &[&
     if let Some(shafts) = &solved.shafts {
         let (s, n) = (vibration.harmonic.s(), solved.at.coordinates.len());
         let [re, im] = &mut total;
-        for (k, output) in outputs.iter().enumerate() {
-            shafts.add(&output.factors.left, s, &vibration.harmonic.unknowns, |variable, slope| {
+        let right = &vibration.harmonic.unknowns;
+        let forms: Vec<Form<'_>> = outputs.iter().map(|output| Form { left: &output.factors.left, s, right }).collect();
+        for (k, form) in shafts.shafts.gradients(&forms).iter().enumerate() {
+            for variable in 0..re.column_count() - n {
+                let slope = shafts.along(&form.by_number, variable);
                 re[k][n + variable] += slope.re;
                 im[k][n + variable] += slope.im;
-            });
+            }
         }
     }
     total

@@ -388,7 +388,7 @@ impl<'a> Tracker<'a> {
         let at = (value, self.policy);
         let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
         if !self.description.spans.is_empty() {
-            self.followed.take(value, &judged);
+            self.followed.take(value, state, &judged);
         }
         // Without modes to recognise, a state that is not where the path leads may be on another branch.
         let astray = match &predicted {

@@ -5,12 +5,12 @@ use super::normalisation::{Normalisation, normalise};
 use crate::algebra::{Cholesky, Lu, Matrix, dot_complex};
 use crate::constraints::{Structure, Tangent};
 use crate::kernels::Kernels;
-use crate::shafts::{Shafts, numbers};
+use crate::shafts::{Shafts, form, numbers};
 use crate::{Complex, Description, Equilibrium, Stability};
 use eigentol_contract::LineKind;
-use eigentol_shafts::Pencil;
+use eigentol_shafts::{Found, Line, Pencil};
 
-/// After how many states in succession modes are sought anew: others may have become the lowest.
+/// After how many states in succession is asked whether others have become the lowest.
 const FOLLOWED: usize = 8;
 /// Part of the distance to instability, as the last two states have it, for which a state is not judged by itself.
 const SURE: f64 = 0.25;
@@ -48,7 +48,7 @@ impl Followed {
 
     /// Takes a state with its modes; none if it was not judged.
     #[doc(hidden)]
-    pub fn take(&mut self, value: f64, modes: &[Mode]) {
+    pub fn take(&mut self, value: f64, state: &Equilibrium, modes: &[Mode]) {
         self.last = value;
         if modes.is_empty() {
             return;
@@ -62,7 +62,12 @@ impl Followed {
         };
         self.judged = Some((value, growth));
         self.states += 1;
-        self.modes = if self.states.is_multiple_of(FOLLOWED) { Vec::new() } else { modes.to_vec() };
+        let has_all = || {
+            let known: Vec<Complex> = modes.iter().map(|mode| mode.s).collect();
+            Shafts::of(state).is_ok_and(|shafts| shafts.is_some_and(|shafts| shafts.whole.has_all(&known)))
+        };
+        let stays = !self.states.is_multiple_of(FOLLOWED) || has_all();
+        self.modes = if stays { modes.to_vec() } else { Vec::new() };
     }
 }
 
@@ -90,10 +95,9 @@ impl Shafts {
     /// The modes at a state of these shafts, from those of a nearby one if given: the lowest that oscillate.
     pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode]) -> Option<Vec<Mode>> {
         let found = self.followed(nearby).or_else(|| self.whole.modes(count(&at.description)).ok())?;
-        let places: Vec<Complex> = found.iter().map(|own| own.s).collect();
         let (mut modes, within) = (Vec::new(), self.whole.terms());
         let (size, leading) = Normalisation::of(&at.description);
-        for (own, Pencil { matrix, slope }) in found.into_iter().zip(self.whole.pencils(&places)) {
+        for (own, Pencil { matrix, slope }) in found {
             let eigentol_shafts::Mode { s, mut right, mut left } = own;
             let mass = &at.linear.mass;
             let weighs =
@@ -116,37 +120,38 @@ impl Shafts {
     }
 
     /// The modes next to others; `None` if two of them became one.
-    fn followed(&self, nearby: &[Mode]) -> Option<Vec<eigentol_shafts::Mode>> {
+    fn followed(&self, nearby: &[Mode]) -> Option<Vec<Found>> {
         if nearby.is_empty() {
             return None;
         }
         let start =
             |mode: &Mode| eigentol_shafts::Mode { s: mode.s, right: mode.shape.clone(), left: mode.left().into() };
         let starts: Vec<eigentol_shafts::Mode> = nearby.iter().map(start).collect();
-        let found: Vec<eigentol_shafts::Mode> = self.whole.refined(&starts).into_iter().collect::<Option<_>>()?;
-        let twice = |k: usize| found[..k].iter().any(|other| other.is_same(&found[k]));
+        let found: Vec<Found> = self.whole.refined(&starts).into_iter().collect::<Option<_>>()?;
+        let twice = |k: usize| found[..k].iter().any(|(other, _)| other.is_same(&found[k].0));
         (!(0..found.len()).any(twice)).then_some(found)
     }
 
-    /// Adds what spins of the shafts to the sums of the kernel `whirl` of a vibration.
-    pub(crate) fn add_to_whirl(&self, of: &Description, s: Complex, shape: &[Complex], sums: &mut [f64; 7]) {
-        let inertia = self.spans.inertia(&self.spans.condensed(s).motion(shape));
+    /// Adds what spins of the shafts to the sums of the kernel `whirl` of each mode.
+    pub(crate) fn add_to_whirls(&self, of: &Description, modes: &[Mode], sums: &mut [[f64; 7]]) {
+        let all = self.spans.inertia(&modes.iter().map(|mode| form(mode, mode)).collect::<Vec<_>>());
+        sums.iter_mut().zip(all).for_each(|(sums, own)| self.add_to_whirl(of, &own, sums));
+    }
+
+    fn add_to_whirl(&self, of: &Description, spans: &[[f64; 2]], sums: &mut [f64; 7]) {
         let [moment, lateral, torsional, axial, eccentric, moving, still] = sums;
         let before = *moving;
-        for (span, own) in self.spans.spans().iter().zip(inertia) {
+        for (span, &[with, against]) in self.spans.spans().iter().zip(spans) {
             let (speed, square) = (span.speed, span.speed * span.speed);
-            let all = match own[..] {
-                [with, against] => {
-                    *moment += 0.25 * speed * speed.abs() * (with - against);
-                    *lateral += 0.25 * square * (with + against);
-                    0.25 * (with + against)
-                }
-                _ => {
-                    let place = span.ends.iter().find_map(|end| end[0]).map_or(0, |(index, _)| index);
-                    let along = of.coordinates.get(place).is_some_and(|info| *info.unit.symbol == *"m");
-                    *(if along { &mut *axial } else { &mut *torsional }) += 0.5 * square * own[0];
-                    0.5 * own[0]
-                }
+            let all = if span.line == Line::Bar {
+                let place = span.ends.iter().find_map(|end| end[0]).map_or(0, |(index, _)| index);
+                let along = of.coordinates.get(place).is_some_and(|info| *info.unit.symbol == *"m");
+                *(if along { &mut *axial } else { &mut *torsional }) += 0.5 * square * with;
+                0.5 * with
+            } else {
+                *moment += 0.25 * speed * speed.abs() * (with - against);
+                *lateral += 0.25 * square * (with + against);
+                0.25 * (with + against)
             };
             *(if speed == 0.0 { &mut *still } else { &mut *moving }) += all;
         }

@@ -266,18 +266,19 @@ pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Whirl
         let mass = mechanism.linear(&at.coordinates, &at.inputs, &at.design).mass;
         (ring_speeds(mechanism, at), mass)
     });
-    let shafts = Shafts::of(at).ok().flatten();
-    let whirl = |mode: &Mode| {
+    let of_mode = |mode: &Mode| {
+        let [real, imaginary] = [mode.shape.map(|value| value.re), mode.shape.map(|value| value.im)];
+        mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary)
+    };
+    let mut sums: Vec<[f64; 7]> = modes.modes.iter().map(of_mode).collect();
+    if let Ok(Some(shafts)) = Shafts::of(at) {
+        shafts.add_to_whirls(&description, &modes.modes, &mut sums);
+    }
+    let whirl = |(mode, sums): (&Mode, [f64; 7])| {
         let frequency = mode.frequency()?;
-        let real = mode.shape.map(|value| value.re);
-        let imaginary = mode.shape.map(|value| value.im);
-        let mut sums = mechanism.whirl(&at.coordinates, &at.inputs, &at.design, &real, &imaginary);
-        if let Some(shafts) = &shafts {
-            shafts.add_to_whirl(&description, mode.s, &mode.shape, &mut sums);
-        }
         let of_shafts = Whirl::new(sums);
         let Some((speeds, mass)) = &rings else { return of_shafts };
         Whirl::with_blades(of_shafts, pattern(&description, speeds, mass, (&mode.shape, frequency)))
     };
-    Whirls(modes.modes.iter().map(whirl).collect())
+    Whirls(modes.modes.iter().zip(sums).map(whirl).collect())
 }

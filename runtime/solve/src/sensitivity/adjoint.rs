@@ -10,7 +10,7 @@ use super::{Method, ModeSensitivity, Sensitivities, assemble_into, check_state, 
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
 use crate::kernels::{Gradient, Kernels, PartialMatrices, ResidualPartials, Sizes, residual_partials_zeros};
 use crate::modes::{Family, pencil_slope_times};
-use crate::shafts::ShaftSlopes;
+use crate::shafts::{FormGradient, ShaftSlopes};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode with respect to every input and design variable.
@@ -79,24 +79,25 @@ impl<'a> Adjoint<'a> {
         };
         let sizes = mechanism.sizes();
         let shafts = ShaftSlopes::of(*mechanism, at)?;
+        let shafts = shafts.as_deref().map(|own| (own, own.of_modes(&modes.modes)));
         let shared = AdjointContext { mechanism: *mechanism, at, factors, residual, shafts };
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some(residual)) => {
-                assemble_into(at, modes, sensitivities, |sensitivity, mode| {
+                assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
                     shared.undamped_from_partials(matrices, residual, sensitivity, mode);
                 })
             }
             (Family::Undamped, ..) => {
                 let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
-                assemble_into(at, modes, sensitivities, |sensitivity, mode| {
+                assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
                     shared.undamped(&mut gradient, &mut room, sensitivity, mode);
                 })
             }
             (Family::General, ..) => {
                 let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
                 let mut room = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
-                assemble_into(at, modes, sensitivities, |sensitivity, mode| {
-                    shared.general(matrices, &mut gradient, &mut room, sensitivity, mode);
+                assemble_into(at, modes, sensitivities, |sensitivity, (position, mode)| {
+                    shared.general(matrices, [&mut gradient, &mut room], sensitivity, (position, mode));
                 })
             }
         }
@@ -110,7 +111,8 @@ struct AdjointContext<'a> {
     factors: &'a Factors,
     /// Explicit partials of the residual, if its gradients are computed from them.
     residual: Option<&'a ResidualPartials>,
-    shafts: Option<Box<ShaftSlopes>>,
+    /// Shafts, and how the forms of all modes change with them.
+    shafts: Option<(&'a ShaftSlopes, Vec<FormGradient>)>,
 }
 
 impl AdjointContext<'_> {
@@ -161,10 +163,9 @@ impl AdjointContext<'_> {
     fn general(
         &self,
         matrices: Option<&PartialMatrices>,
-        gradient: &mut ComplexGradient,
-        room: &mut ComplexGradient,
+        [gradient, room]: [&mut ComplexGradient; 2],
         mode_sensitivity: &mut ModeSensitivity,
-        mode: &Mode,
+        (position, mode): (usize, &Mode),
     ) {
         match matrices {
             Some(matrices) => of_general(matrices, mode, gradient),
@@ -179,13 +180,15 @@ impl AdjointContext<'_> {
         let [re, im] = gradient;
         let moved = match &self.shafts {
             None => normaliser(self.at, None, mode),
-            Some(shafts) => shafts.add(mode.left(), mode.s, &mode.shape, |k, slope| {
-                let (re, im) = match k.checked_sub(re.inputs.len()) {
-                    None => (&mut re.inputs[k], &mut im.inputs[k]),
-                    Some(k) => (&mut re.design[k], &mut im.design[k]),
-                };
-                (*re, *im) = (*re + slope.re, *im + slope.im);
-            }),
+            Some((shafts, forms)) => {
+                let form = &forms[position];
+                let to = re.inputs.iter_mut().chain(&mut re.design).zip(im.inputs.iter_mut().chain(&mut im.design));
+                for (variable, (re, im)) in to.enumerate() {
+                    let slope = shafts.along(&form.by_number, variable);
+                    (*re, *im) = (*re + slope.re, *im + slope.im);
+                }
+                form.by_s
+            }
         };
         let scale = -moved;
         let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;

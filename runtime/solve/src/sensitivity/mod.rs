@@ -109,10 +109,10 @@ fn assemble(
     at: &Equilibrium,
     modes: &Modes,
     method: Method,
-    set: impl FnMut(&mut ModeSensitivity, &Mode),
+    mut set: impl FnMut(&mut ModeSensitivity, &Mode),
 ) -> Result<Sensitivities, Error> {
     let mut sensitivities = Sensitivities::blank(at, modes, method);
-    assemble_into(at, modes, &mut sensitivities, set)?;
+    assemble_into(at, modes, &mut sensitivities, |sensitivity, (_, mode)| set(sensitivity, mode))?;
     Ok(sensitivities)
 }
 
@@ -121,7 +121,7 @@ fn assemble_into(
     at: &Equilibrium,
     modes: &Modes,
     sensitivities: &mut Sensitivities,
-    mut set: impl FnMut(&mut ModeSensitivity, &Mode),
+    mut set: impl FnMut(&mut ModeSensitivity, (usize, &Mode)),
 ) -> Result<(), Error> {
     check_modes(at, modes)?;
     sensitivities.inputs.clone_from(&at.inputs);
@@ -133,7 +133,7 @@ fn assemble_into(
         } else if merged(modes, position) {
             sensitivity.set_merged(mode, at.inputs.len(), at.design.len());
         } else {
-            set(sensitivity, mode);
+            set(sensitivity, (position, mode));
             sensitivity.clustered |= near_another(modes, position, CLUSTER_GAP);
         }
         finite &= sensitivity.finite();

@@ -10,7 +10,7 @@ use crate::eigenproblem::eigenvalues;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, free_pairs, pencil_slope_times, pencil_times};
 use crate::sensitivity::Direction;
-use crate::shafts::ShaftSlopes;
+use crate::shafts::{Form, ShaftSlopes, form};
 use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
 /// Eigenvalues closer than this, relative to the larger, are derived together: rounding mixes their shapes.
@@ -95,14 +95,17 @@ fn real_roots(
         let apart = (values[r] - values[k]).abs();
         apart <= MIXED * values[r].abs().max(values[k].abs()) + error(r).min(error(k))
     };
-    let slopes = slopes(values.len(), near, |cluster| {
-        let lambda = values[cluster[0]];
-        Matrix::from_fn(cluster.len(), cluster.len(), |i, j| {
-            let (left, right) = (&shapes[cluster[i]], &shapes[cluster[j]]);
-            let forces = times(&change.stiffness, right);
-            let inertia = times(&change.mass, right);
-            Complex::from(dot(left, &forces) - lambda * dot(left, &inertia))
-        })
+    let slopes = slopes(values.len(), near, |clusters| {
+        let of_cluster = |cluster: &Vec<usize>| {
+            let lambda = values[cluster[0]];
+            Matrix::from_fn(cluster.len(), cluster.len(), |i, j| {
+                let (left, right) = (&shapes[cluster[i]], &shapes[cluster[j]]);
+                let forces = times(&change.stiffness, right);
+                let inertia = times(&change.mass, right);
+                Complex::from(dot(left, &forces) - lambda * dot(left, &inertia))
+            })
+        };
+        clusters.iter().map(of_cluster).collect()
     });
     let root = |r: usize| Root {
         value: values[r].into(),
@@ -127,25 +130,30 @@ fn general(
         let size = a.s.norm().max(b.s.norm());
         (a.s - b.s).norm() <= MIXED * size + a.error.min(b.error)
     };
-    let slopes = slopes(modes.len(), near, |cluster| {
-        let s = modes[cluster[0]].s;
-        let products = |matrix: &dyn Fn(&[Complex]) -> Vector<Complex>| {
-            let images: Vec<_> = cluster.iter().map(|&j| matrix(&modes[j].shape)).collect();
-            Matrix::from_fn(cluster.len(), cluster.len(), |i, j| dot_complex(modes[cluster[i]].left(), &images[j]))
-        };
-        let changes = products(&|x| pencil_times(change, s, x));
-        let Some((shafts, (input, rate))) = shafts else {
-            return quotient(products(&|x| pencil_slope_times(linear, s, x)), changes);
-        };
-        let (mut moved, mut changes) = (Matrix::zeros(cluster.len(), cluster.len()), changes);
-        for (i, &row) in cluster.iter().enumerate() {
-            for (j, &column) in cluster.iter().enumerate() {
-                let gradient = shafts.shafts.gradient(modes[row].left(), s, &modes[column].shape);
-                changes[i][j] += shafts.along(&gradient.by_number, input) * rate;
-                moved[i][j] = gradient.by_s;
+    let slopes = slopes(modes.len(), near, |clusters| {
+        let of_shafts = shafts.map(|(shafts, (input, rate))| {
+            let pairs = clusters.iter().flat_map(|cluster| cluster.iter().flat_map(|i| cluster.iter().map(move |j| (i, j))));
+            let forms: Vec<Form<'_>> = pairs.map(|(&i, &j)| form(&modes[i], &modes[j])).collect();
+            let each = shafts.shafts.gradients(&forms).into_iter();
+            each.map(|own| [own.by_s, shafts.along(&own.by_number, input) * rate]).collect::<Vec<_>>()
+        });
+        let mut of_shafts = of_shafts.iter().flatten();
+        let of_cluster = |cluster: &Vec<usize>| {
+            let (count, s) = (cluster.len(), modes[cluster[0]].s);
+            let products = |matrix: &dyn Fn(&[Complex]) -> Vector<Complex>| {
+                let images: Vec<_> = cluster.iter().map(|&j| matrix(&modes[j].shape)).collect();
+                Matrix::from_fn(count, count, |i, j| dot_complex(modes[cluster[i]].left(), &images[j]))
+            };
+            let mut changes = products(&|x| pencil_times(change, s, x));
+            let mut moved = products(&|x| pencil_slope_times(linear, s, x));
+            let entries = changes.as_flattened_mut().iter_mut().zip(moved.as_flattened_mut());
+            for ((change, moved), [by_s, along]) in entries.zip(of_shafts.by_ref()) {
+                *change += along;
+                *moved = *by_s;
             }
-        }
-        quotient(moved, changes)
+            quotient(moved, changes)
+        };
+        clusters.iter().map(of_cluster).collect()
     });
     let roots = modes.iter().zip(slopes);
     let root = |(mode, slope): (&Mode, Complex)| Root {
@@ -182,10 +190,14 @@ fn quotient(mut a: Matrix<Complex>, mut b: Matrix<Complex>) -> Matrix<Complex> {
 }
 
 /// The derivatives of eigenvalues: those of eigenvalues that are equal to rounding are the eigenvalues of the matrix
-/// that `of` returns for their positions.
-fn slopes(count: usize, near: impl Fn(usize, usize) -> bool, of: impl Fn(&[usize]) -> Matrix<Complex>) -> Vec<Complex> {
-    let mut slopes = vec![Complex::ZERO; count];
+/// that `of` returns for the positions of each such cluster.
+fn slopes(
+    count: usize,
+    near: impl Fn(usize, usize) -> bool,
+    of: impl FnOnce(&[Vec<usize>]) -> Vec<Matrix<Complex>>,
+) -> Vec<Complex> {
     let mut done = vec![false; count];
+    let mut clusters = Vec::new();
     for first in 0..count {
         if done[first] {
             continue;
@@ -198,7 +210,12 @@ fn slopes(count: usize, near: impl Fn(usize, usize) -> bool, of: impl Fn(&[usize
             cluster.extend(new);
             next += 1;
         }
-        let mut elements: Vec<Complex> = of(&cluster).as_flattened().to_vec();
+        cluster.iter().for_each(|&r| done[r] = true);
+        clusters.push(cluster);
+    }
+    let mut slopes = vec![Complex::ZERO; count];
+    for (cluster, matrix) in clusters.iter().zip(of(&clusters)) {
+        let mut elements: Vec<Complex> = matrix.as_flattened().to_vec();
         let mut values = vec![Complex::new(f64::NAN, 0.0); cluster.len()];
         match (&cluster[..], elements.iter().all(|value| value.is_finite())) {
             ([_], _) => values[0] = elements[0],
@@ -206,7 +223,7 @@ fn slopes(count: usize, near: impl Fn(usize, usize) -> bool, of: impl Fn(&[usize
             _ => values.fill(Complex::new(f64::NAN, 0.0)),
         }
         for (&r, value) in cluster.iter().zip(values) {
-            (slopes[r], done[r]) = (value, true);
+            slopes[r] = value;
         }
     }
     slopes
