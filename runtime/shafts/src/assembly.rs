@@ -296,12 +296,6 @@ impl<'a> Condensed<'a> {
         motion
     }
 
-    /// `T'(s)` times a motion of the stations.
-    #[must_use]
-    pub fn slope_times(&self, stations: &[Complex]) -> Vector<Complex> {
-        self.reduced(self.assembly.slope_loads(&self.motion(stations), self.s, Side::Right), Side::Right).stations
-    }
-
     /// Loads everywhere as loads on the stations; what remains within is reduced in place, for [`Self::spread`].
     fn reduced(&self, mut loads: Motion, side: Side) -> Motion {
         for ((span, chains), within) in self.assembly.spans.iter().zip(self.chains.iter()).zip(&mut loads.spans) {

@@ -68,8 +68,8 @@ impl<T: Number> Element<T> {
         let (mut start, mut row) = (0, 0);
         for (class, size) in self.sizes.into_iter().enumerate() {
             let x = &mut own[start..start + size];
-            for component in 0..c {
-                x[component] = self.shape.amplitude(class, component, nodes);
+            for (component, to) in x[..c].iter_mut().enumerate() {
+                *to = self.shape.amplitude(class, component, nodes);
             }
             for p in c..size {
                 let factors = &self.factors[row..row + p + 1];

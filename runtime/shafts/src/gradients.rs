@@ -83,8 +83,10 @@ impl Assembly {
     fn sides(&self, group: &[Form<'_>]) -> Vec<Sides> {
         let mut sides = Vec::new();
         for span in self.spans() {
-            let of_form = |form: &Form<'_>| [(form.left, Side::Left), (form.right, Side::Right)]
-                .map(|(stations, side)| span.ends_of(stations, side));
+            let of_form = |form: &Form<'_>| {
+                [(form.left, Side::Left), (form.right, Side::Right)]
+                    .map(|(stations, side)| span.ends_of(stations, side))
+            };
             let ends: Vec<[Vec<[Node; 2]>; 2]> = group.iter().map(of_form).collect();
             let lane = |lane: usize| ends.get(lane).unwrap_or(&ends[0]);
             for direction in 0..span.directions().len() {
@@ -229,12 +231,7 @@ fn product<V: Lanes>(k: &[Pair<V>; TERMS], forms: &[Pair<V>; TERMS]) -> Pair<V> 
 
 /// The loads on the slopes of the nodes in one motion times these slopes in another.
 #[inline(always)]
-fn at_slope<V: Lanes>(
-    classes: &[Class; 2],
-    k: &[Pair<V>; TERMS],
-    a: &[Pair<V>],
-    b: &[Pair<V>],
-) -> Pair<V> {
+fn at_slope<V: Lanes>(classes: &[Class; 2], k: &[Pair<V>; TERMS], a: &[Pair<V>], b: &[Pair<V>]) -> Pair<V> {
     let mut on = vec![Pair::zero(); a.len()];
     loads(classes, k, a, &mut on);
     let second = classes[0].size + 1;

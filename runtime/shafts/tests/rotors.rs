@@ -28,10 +28,15 @@ fn close(found: f64, expected: f64, scale: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance * scale, "{what}: {found} against {expected}");
 }
 
-/// `left^T T'(s) right`, from the loads of the slope.
+/// `left^T T'(s) right`.
 fn normaliser(assembly: &Assembly, mode: &Mode) -> Complex {
-    let moved = assembly.condensed(mode.s).slope_times(&mode.right);
-    mode.left.iter().zip(&moved).map(|(a, b)| a * b).sum()
+    let slope = &assembly.pencils(&[mode.s])[0].slope;
+    let products = mode
+        .left
+        .iter()
+        .zip(slope.iter())
+        .flat_map(|(a, row)| row.iter().zip(&mode.right).map(move |(m, b)| a * m * b));
+    products.sum()
 }
 
 /// Simply supported: only the slopes of the ends are free.

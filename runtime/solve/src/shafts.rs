@@ -130,20 +130,10 @@ impl Shafts {
         self.whole.condensed(s).matrix()
     }
 
-    /// `T'(s) x`.
-    #[must_use]
-    pub fn slope_times(&self, s: Complex, x: &[Complex]) -> Vector<Complex> {
-        self.whole.condensed(s).slope_times(x)
-    }
-
     /// `T'(s)`.
     #[must_use]
     pub fn slope(&self, s: Complex) -> Matrix<Complex> {
-        let n = self.whole.stations();
-        let unit = |k: usize| Vector::from_fn(n, |i| Complex::from(f64::from(u8::from(i == k))));
-        let condensed = self.whole.condensed(s);
-        let columns: Vec<Vector<Complex>> = (0..n).map(|k| condensed.slope_times(&unit(k))).collect();
-        Matrix::from_fn(n, n, |i, j| columns[j][i])
+        self.whole.pencils(&[s]).swap_remove(0).slope
     }
 
     /// Derivatives of `left^T T(s) right` for each of these.
@@ -159,10 +149,7 @@ impl Shafts {
                 by_number.extend(of_span(span, moving, still, |i| s * s * left[i] * right[i]));
             }
             let of_spans: Complex = moving.iter().map(|own| own.rate).sum();
-            FormGradient {
-                by_number: by_number.into(),
-                by_s: self.whole.slope_of_stations(left, s, right) + of_spans,
-            }
+            FormGradient { by_number: by_number.into(), by_s: self.whole.slope_of_stations(left, s, right) + of_spans }
         };
         all.iter().zip(&moving).zip(&still).map(gradient).collect()
     }
@@ -253,12 +240,7 @@ fn span(info: &SpanInfo, own: &[f64]) -> Span {
 
 /// Derivatives by the numbers of a span: in motion, less those at rest and of the lumped inertia, whose `weight` at each
 /// unknown is `s^2 left right`.
-fn of_span(
-    span: &Span,
-    moving: &SpanForm,
-    still: &SpanForm,
-    weight: impl Fn(usize) -> Complex,
-) -> Vec<Complex> {
+fn of_span(span: &Span, moving: &SpanForm, still: &SpanForm, weight: impl Fn(usize) -> Complex) -> Vec<Complex> {
     let sum = |of: fn(&Section) -> f64| span.sections.iter().map(|(own, _)| of(own)).sum::<f64>();
     let (length, mass) = (sum(|own| own.length), sum(|own| own.mass * own.length));
     let mut weights = [Complex::ZERO; 2];

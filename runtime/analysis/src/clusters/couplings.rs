@@ -241,7 +241,8 @@ impl<'a> General<'a> {
         let moved: Vec<_> = members.iter().map(|b| pencil_times(change, b.s, &b.shape)).collect();
         Matrix::from_fn(count, count, |i, j| {
             let compiled = dot_complex(members[i].left(), &moved[j]);
-            let of_shafts = shafts.as_ref().map(|(shafts, between)| shafts.along(&between[i * count + j].by_number, variable));
+            let of_shafts =
+                shafts.as_ref().map(|(shafts, between)| shafts.along(&between[i * count + j].by_number, variable));
             -(compiled + of_shafts.unwrap_or_default()) / normalisers[i]
         })
     }

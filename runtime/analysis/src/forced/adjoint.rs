@@ -16,7 +16,7 @@ use crate::kernels::{Gradient, Kernel, Kernels, Sizes};
 use crate::modes::pencil_slope_times;
 use crate::scalar::Real as _;
 use crate::sensitivity::{BilinearForm, ComplexGradient};
-use crate::shafts::Form;
+use crate::shafts::{Form, FormGradient};
 use crate::{Complex, Equilibrium};
 
 /// One output of a harmonic and its adjoint.
@@ -25,6 +25,8 @@ pub(super) struct OutputAdjoint<'a> {
     pub(super) vibration: &'a Vibration,
     pub(super) output: usize,
     pub(super) factors: Factors,
+    /// Derivatives of `p^T T(s) z` by the numbers of shafts.
+    of_shafts: Option<FormGradient>,
 }
 
 /// `s^2 z`, `s z`, `z`, or the change of them.
@@ -61,20 +63,24 @@ impl<'a> OutputAdjoint<'a> {
         let (first, rows) = (outputs.start, &vibration.seen);
         let weights = Matrix::from_fn(z.len(), outputs.len(), |i, k| rows[first + k][i]);
         let lefts = vibration.stiffness.solve_transposed(&weights);
-        let of_matrices = match &solved.shafts {
-            None => pencil_slope_times(&solved.at.linear, s, z),
-            Some(own) => own.shafts.slope_times(s, z),
-        };
-        let adjoint = |output: usize| {
-            let finite = solved.smooth[output] && !vibration.stiffness.seen_by(&rows[output]);
-            finite.then(|| {
-                let left = lefts.column(output - first);
-                let of_output = solved.seen.slope(output, s, z);
-                let factors = Factors { slope: Complex::I * (of_output - dot_complex(&left, &of_matrices)), left };
-                Self { solved, vibration, output, factors }
-            })
-        };
-        outputs.map(adjoint).collect()
+        let finite = |output: &usize| solved.smooth[*output] && !vibration.stiffness.seen_by(&rows[*output]);
+        let finite: Vec<usize> = outputs.clone().filter(finite).collect();
+        let lefts: Vec<Vector<Complex>> = finite.iter().map(|output| lefts.column(output - first)).collect();
+        let forms: Vec<Form<'_>> = lefts.iter().map(|left| Form { left, s, right: z }).collect();
+        let mut of_shafts = solved.shafts.iter().flat_map(|own| own.shafts.gradients(&forms));
+        let of_matrices = solved.shafts.is_none().then(|| pencil_slope_times(&solved.at.linear, s, z));
+        let mut all: Vec<Option<Self>> = outputs.map(|_| None).collect();
+        for (&output, left) in finite.iter().zip(&lefts) {
+            let of_shafts = of_shafts.next();
+            let by_s = match (&of_shafts, &of_matrices) {
+                (Some(form), _) => form.by_s,
+                (None, slope) => slope.as_ref().map_or(Complex::ZERO, |slope| dot_complex(left, slope)),
+            };
+            let of_output = solved.seen.slope(output, s, z);
+            let factors = Factors { slope: Complex::I * (of_output - by_s), left: left.clone() };
+            all[output - first] = Some(Self { solved, vibration, output, factors, of_shafts });
+        }
+        all
     }
 
     /// The gradient of `-h` at fixed equilibrium.
@@ -126,11 +132,8 @@ pub(super) fn gradients(solved: &Solved<'_>, vibration: &Vibration, outputs: &[&
         }
     }
     if let Some(shafts) = &solved.shafts {
-        let (s, n) = (vibration.harmonic.s(), solved.at.coordinates.len());
-        let [re, im] = &mut total;
-        let right = &vibration.harmonic.unknowns;
-        let forms: Vec<Form<'_>> = outputs.iter().map(|output| Form { left: &output.factors.left, s, right }).collect();
-        for (k, form) in shafts.shafts.gradients(&forms).iter().enumerate() {
+        let (n, [re, im]) = (solved.at.coordinates.len(), &mut total);
+        for (k, form) in outputs.iter().enumerate().filter_map(|(k, output)| Some((k, output.of_shafts.as_ref()?))) {
             for variable in 0..re.column_count() - n {
                 let slope = shafts.along(&form.by_number, variable);
                 re[k][n + variable] += slope.re;

@@ -12,9 +12,8 @@ use super::vibration::Vibration;
 use crate::algebra::{Vector, dot_complex};
 use crate::error::NoDerivative;
 use crate::kernels::{CurvatureKernels, Linear};
-use crate::modes::pencil_slope_times;
 use crate::second_order::{Adjoint, joined};
-use crate::sensitivity::{Slopes, directions};
+use crate::sensitivity::{Slopes, directions, normaliser};
 use crate::shafts::ShaftsAlong;
 use crate::{Complex, Description, Equilibrium, Error, Mode, Output};
 
@@ -262,11 +261,8 @@ fn residue(solved: &Solved<'_>, mode: &Mode, seen: &[Complex], force: &[Complex]
     if share == 0.0 {
         return (0.0, 0.0);
     }
-    let slope = match &solved.shafts {
-        None => pencil_slope_times(&solved.at.linear, mode.s, right),
-        Some(own) => own.shafts.slope_times(mode.s, right),
-    };
-    (seen.0 * force.0 / dot_complex(left, &slope).norm(), share)
+    let below = normaliser(solved.at, solved.shafts.as_deref(), mode);
+    (seen.0 * force.0 / below.norm(), share)
 }
 
 /// The sizes of the terms in `p . D z`, whose rounding an output sees.

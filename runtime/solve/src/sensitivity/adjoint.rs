@@ -268,7 +268,7 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 /// `psi^T (2 s Mhat + Chat) phi`, with shafts `psi^T T'(s) phi`; zero where the eigenvalue has merged with another.
 pub fn normaliser(at: &Equilibrium, shafts: Option<&ShaftSlopes>, mode: &Mode) -> Complex {
     let moved = match shafts {
-        Some(own) => own.shafts.slope_times(mode.s, &mode.shape),
+        Some(own) => own.shafts.slope(mode.s).iter().map(|row| dot_complex(row, &mode.shape)).collect(),
         None => pencil_slope_times(&at.linear, mode.s, &mode.shape),
     };
     dot_complex(mode.left(), &moved)

@@ -132,7 +132,8 @@ fn general(
     };
     let slopes = slopes(modes.len(), near, |clusters| {
         let of_shafts = shafts.map(|(shafts, (input, rate))| {
-            let pairs = clusters.iter().flat_map(|cluster| cluster.iter().flat_map(|i| cluster.iter().map(move |j| (i, j))));
+            let pairs =
+                clusters.iter().flat_map(|cluster| cluster.iter().flat_map(|i| cluster.iter().map(move |j| (i, j))));
             let forms: Vec<Form<'_>> = pairs.map(|(&i, &j)| form(&modes[i], &modes[j])).collect();
             let each = shafts.shafts.gradients(&forms).into_iter();
             each.map(|own| [own.by_s, shafts.along(&own.by_number, input) * rate]).collect::<Vec<_>>()
