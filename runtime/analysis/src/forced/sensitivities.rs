@@ -7,7 +7,7 @@ use super::response::{ForcedResponse, Harmonic, Solved};
 use crate::algebra::{Matrix, Vector, add_to};
 use crate::kernels::Kernels;
 use crate::scalar::Real as _;
-use crate::sensitivity::{EquilibriumShift, Slopes, depends, equilibrium_shift};
+use crate::sensitivity::{EquilibriumShift, Slopes, amplitude_depends, equilibrium_shift};
 use crate::{Complex, Equilibrium, Error, Output};
 
 /// A forced response and its total first derivatives: equilibrium and frequency follow the variables.
@@ -29,7 +29,8 @@ pub struct HarmonicSensitivity {
     /// Of the frequency, rad/s per SI unit.
     pub frequency: Slopes<f64>,
     /// Of the complex amplitude of each output, SI; `None` if it has no amplitude, or one without derivative, because it
-    /// depends on a place that nothing determines, or sees an undamped mode that is in resonance but not driven.
+    /// depends on a place that nothing determines, or sees an undamped mode that is in resonance but not driven. Where only the
+    /// phase depends on a place, as under an unbalance on what turns freely, it is that of the place as it is.
     pub outputs: Vec<Option<Slopes<Complex>>>,
 }
 
@@ -91,14 +92,17 @@ pub fn sensitivities(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<Forced
 pub(super) fn first_derivatives(solved: &Solved<'_>) -> Result<Vec<HarmonicSensitivity>, Error> {
     let (mechanism, at) = (solved.mechanism, solved.at);
     let shift = equilibrium_shift(mechanism, at)?;
-    let (n, outputs) = (at.coordinates.len(), mechanism.sizes().outputs);
+    let outputs = mechanism.sizes().outputs;
     let mut harmonics = Vec::new();
     for vibration in &solved.vibrations {
         let adjoints = OutputAdjoint::each(solved, vibration, 0..outputs);
         let finite: Vec<&OutputAdjoint<'_>> = adjoints.iter().flatten().collect();
         let mut rows = gradients(solved, vibration, &finite);
-        let placed = |rows: &Matrix, k: usize| depends(at, &rows[k][..n]);
-        let placed: Vec<bool> = (0..finite.len()).map(|k| rows.iter().any(|rows| placed(rows, k))).collect();
+        let placed = |(k, own): (usize, &&OutputAdjoint<'_>)| {
+            let y = vibration.harmonic.outputs[own.output].unwrap_or_default();
+            amplitude_depends(at, y, |j| Complex::new(rows[0][k][j], rows[1][k][j]))
+        };
+        let placed: Vec<bool> = finite.iter().enumerate().map(placed).collect();
         rows.iter_mut().for_each(|rows| add_shift(rows, &shift));
         let [re, im] = &rows;
         let mut places = 0..finite.len();

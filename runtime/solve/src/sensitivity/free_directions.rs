@@ -5,7 +5,7 @@ use super::redundancy::ROUNDING;
 use crate::algebra::{Matrix, Values, Vector, dot, largest, times};
 use crate::equilibrium::{OperatingPoint, SMALL_MOTION, without_rounding};
 use crate::kernels::Kernels;
-use crate::{Equilibrium, Error, Text};
+use crate::{Complex, Equilibrium, Error, Text};
 
 /// Share of a variable's effect on the terms of a balance below which it counts as no effect, compared with the forces
 /// themselves.
@@ -67,6 +67,17 @@ pub fn depends(at: &Equilibrium, by_unknown: &[f64]) -> bool {
     at.free.undetermined().iter().any(|z| {
         let terms = by_unknown.iter().zip(z).fold(0.0, |sum, (a, z)| sum + (a * z).abs());
         dot(by_unknown, z).abs() > ROUNDING * terms
+    })
+}
+
+/// The same of the amplitude of a vibration `y` with these derivatives: that its phase does, as that of an unbalance on what turns
+/// freely, is no matter.
+pub fn amplitude_depends(at: &Equilibrium, y: Complex, by_unknown: impl Fn(usize) -> Complex) -> bool {
+    at.free.undetermined().iter().any(|z| {
+        let each = z.iter().enumerate().map(|(j, z)| by_unknown(j) * z);
+        let (sum, terms) = each.fold((Complex::ZERO, 0.0), |(sum, terms), own| (sum + own, terms + own.norm()));
+        let along = if y == Complex::ZERO { sum.norm() } else { (y.conj() / y.norm() * sum).re.abs() };
+        along > ROUNDING * terms
     })
 }
 

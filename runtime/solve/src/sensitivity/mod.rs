@@ -26,7 +26,7 @@ pub use explicit::Rate;
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
 #[doc(hidden)]
-pub use free_directions::depends;
+pub use free_directions::{amplitude_depends, depends};
 #[doc(hidden)]
 pub use gradients::Source;
 #[doc(hidden)]

@@ -150,11 +150,11 @@ fn with_constraints(n: usize, mass: &[Disturbed], constraints: &[Disturbed], ope
 }
 
 /// A null vector of a singular symmetric matrix, with its last nonzero component one. A pivot counts as zero if
-/// rounding can explain it.
+/// rounding can explain it; one is negative where the random design has a bore larger than the outside.
 fn null_vector(n: usize, mut a: Vec<Disturbed>, operations: usize) -> Option<Vec<f64>> {
     for k in 0..n {
         let pivot = a[k * n + k];
-        if pivot.value() <= pivot.rounding(operations) {
+        if pivot.is_rounding(operations) {
             let mut vector = vec![0.0; n];
             vector[k] = 1.0;
             for i in (0..k).rev() {

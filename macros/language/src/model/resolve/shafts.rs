@@ -25,8 +25,9 @@ use crate::syntax::ast::{self, Term, Value, ValueKind};
 
 /// Elements of a whole shaft at least: waves longer than an eighth of it have errors below `1e-8`.
 const ELEMENTS: usize = 24;
-/// Pairs of uniform sections that replace a tapered one, for each e-fold of a diameter; they leave errors of
-/// some `1e-8` in the lowest frequencies.
+/// Pairs of uniform sections that replace a tapered one, for each e-fold of a diameter, or for the fourth root of the e-folds in a
+/// section as long as the shaft: along a wave, errors are as large as the taper and fall with the fourth power of the pairs. They
+/// leave some `1e-8` in the lowest frequencies.
 const STEPS: f64 = 64.0;
 /// Fewest and most of them.
 const FEWEST: usize = 4;
@@ -263,13 +264,18 @@ impl Resolver<'_> {
             let (first, layers) = row.split_first()?;
             let length = self.size_of_section(name, number, "length", first);
             let layers = self.layers(name, number, layers, first, whole);
-            let (length, layers) = (length?, layers?);
-            let folds = layers.iter().map(|layer| layer.folds(|size| self.nominal_of(size))).fold(0.0, f64::max);
-            Some(row_of_layers(&length, &layers, ((STEPS * folds) as usize).clamp(FEWEST, MOST_STEPS)))
+            Some((length?, layers?))
         });
         // Every row is read, so that each mistake is reported.
-        let sections: Vec<Option<Row>> = sections.collect();
-        sections.into_iter().collect()
+        let sections: Vec<Option<(Expr, Vec<Layer>)>> = sections.collect();
+        let sections = sections.into_iter().collect::<Option<Vec<_>>>()?;
+        let whole: f64 = sections.iter().map(|(length, _)| self.nominal_of(length)).sum();
+        let row = |(length, layers): &(Expr, Vec<Layer>)| {
+            let folds = layers.iter().map(|layer| layer.folds(|size| self.nominal_of(size))).fold(0.0, f64::max);
+            let by_waves = folds.powf(0.25) * self.nominal_of(length) / whole;
+            row_of_layers(length, layers, ((STEPS * folds.max(by_waves)) as usize).clamp(FEWEST, MOST_STEPS))
+        };
+        Some(sections.iter().map(row).collect())
     }
 
     /// Layers from the inside out, each an outer and perhaps an inner diameter and perhaps a material.
