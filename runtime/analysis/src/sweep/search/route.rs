@@ -55,6 +55,8 @@ pub(crate) enum Met<'a> {
 
 /// Maximum number of states of a search.
 const MOST_STATES: usize = 4000;
+/// Part of what is left of them that one step may take: what is not resolved there must not hide what is behind it.
+const OF_STEP: usize = 8;
 /// Maximum number of pieces of the way: a safeguard.
 const MOST_PIECES: usize = 64;
 /// Bounds on the largest step along a branch.
@@ -304,7 +306,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let closes = after.place.p == self.settings.high;
         let outer = [self.route.points.is_empty(), closes];
         let turns = before.signs.falling != after.signs.falling;
-        let mut left = self.left;
+        let share = self.left.div_ceil(OF_STEP);
+        let mut left = share;
         let step = Step::new(curve, self.question, [before, after], &mut left);
         let Some(mut step) = step else {
             return ControlFlow::Continue(Pass::On);
@@ -313,8 +316,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let shorter = step.can_be_shorter();
         let Some(findings) = findings else {
             drop(step);
-            self.left = left;
-            if shorter && self.left > 0 {
+            self.left -= share - left;
+            if shorter && self.left > if left == 0 { MOST_STATES / 2 } else { 0 } {
                 return ControlFlow::Continue(Pass::Shorter);
             }
             self.doubt([before.place.p, after.place.p], None);
@@ -378,7 +381,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
             self.doubt(between.map(value), condition);
         }
         drop(step);
-        self.left = left;
+        self.left -= share - left;
         match next {
             Some(next) => ControlFlow::Break(next),
             None => ControlFlow::Continue(Pass::On),
