@@ -2,4 +2,5 @@
 //! against differences.
 
 mod exact;
+mod hard;
 pub(crate) mod random;

@@ -36,6 +36,12 @@ impl Answer for Modes {
         shapes.rest(&mut said);
         said.note_if_any(left_out);
         said.note_if_any(self.of_harmonics());
+        if !self.description.spans.is_empty() {
+            let count = self.modes.len();
+            said.note(format!(
+                "The {count} slowest modes of shafts and all else are sought: whether a faster one grows is not judged."
+            ));
+        }
         if self.damping_ignored {
             said.note("Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.");
         }
