@@ -39,7 +39,8 @@ fn messages() {
         let found = String::from_utf8(output.stderr).expect("text").replace("eigentol::Input<", "Input<");
         // Left out: how many there were and where to read about them, and lines of the library.
         let end = found.find("error: aborting due to").expect("the last line of errors");
-        let own = found[..end].trim_end().lines().take_while(|line| !line.contains("--> ") || line.contains("--> cases/"));
+        let own =
+            found[..end].trim_end().lines().take_while(|line| !line.contains("--> ") || line.contains("--> cases/"));
         let (found, stored) = (own.flat_map(|line| [line, "\n"]).collect::<String>(), case.with_extension("stderr"));
         if env::var_os("UPDATE_MESSAGES").is_some() {
             fs::write(stored, found).expect("a file");
