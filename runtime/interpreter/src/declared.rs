@@ -140,38 +140,3 @@ fn stated<'a>(text: &'a str, name: &Ident, mark: char) -> Option<(Range<usize>, 
     let open = open + after[open..close].len() - after[open..close].trim_start().len();
     Some((name + open..name + close, &after[open..close]))
 }
-
-#[cfg(test)]
-mod tests {
-    use eigentol_compiler::{compile_text, mechanics::Limits};
-
-    use super::*;
-    use crate::Interpreted;
-
-    #[test]
-    fn what_shares_a_line_is_written_only_where_all_agree() {
-        let text = "mechanism Pair {
-            input tilt: deg;
-            design m[0..2] = 2 kg +/- 1%; design k = 8 N/m +0.1 -0.2 N/m;
-            body b[0..2]: rod(mass: 1 kg, length: 1 m, along: x);
-            for i in 0..2 { joint x[i]: prismatic([cos(tilt), 0, 0]) from ground to b[i];
-                force f[i]: spring(on: x[i], stiffness: k * m[i] / 1 kg); }
-        }";
-        let compilation = compile_text(text, Limits::default()).unwrap();
-        let machine = Interpreted::new(&compilation);
-        let written = |values: &[(&str, &str)], tolerances: &[(&str, &str)]| {
-            let map = |all: &[(&str, &str)]| all.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect();
-            rewritten(text, &compilation.ast, machine.description(), &map(values), &map(tolerances))
-        };
-        let (one, unsaid) = written(&[("m[1]", "3 kg"), ("k", "9 N/m")], &[]);
-        assert!(one.contains("design m[0..2] = 2 kg +/- 1%; design k = 9 N/m +0.1 -0.2 N/m;"), "{one}");
-        assert_eq!(unsaid, ["m[1]"]);
-        let (all, unsaid) =
-            written(&[("m[..]", "3 kg")], &[("tilt", "0.5 deg uniform"), ("m[..]", "one of [2, 3] kg")]);
-        assert!(all.contains("design m[0..2] = 3 kg one of [2, 3] kg;"), "{all}");
-        assert!(all.contains("input tilt: deg +/- 0.5 deg uniform;"), "{all}");
-        assert!(unsaid.is_empty());
-        let again = compile_text(&all, Limits::default()).unwrap();
-        assert_eq!(Interpreted::new(&again).description().design[1].nominal, 3.0);
-    }
-}

@@ -9,3 +9,4 @@ mod models;
 mod parts;
 mod units_of_measure;
 mod urdf;
+mod words;

@@ -152,7 +152,7 @@ fn values_of_any_bits(cases: u32) {
 
 #[test]
 fn any_bits_at_all() {
-    values_of_any_bits(120);
+    values_of_any_bits(60);
 }
 
 #[test]

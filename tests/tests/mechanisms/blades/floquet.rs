@@ -241,8 +241,8 @@ fn gravity_across_the_axis_against_integration_about_the_periodic_motion() {
         let turning = Turning { kernels: &free, spin, others, omega };
         let mut start = DVector::zeros(2 * n - 2);
         let mut monodromy = DMatrix::zeros(0, 0);
-        for _ in 0..3 {
-            let (end, change) = turning.turn(&start, 3000);
+        for steps in [500, 1000, 3000] {
+            let (end, change) = turning.turn(&start, steps);
             let identity = DMatrix::identity(2 * n - 2, 2 * n - 2);
             start += (identity - &change).lu().solve(&(end - &start)).expect("a periodic motion");
             monodromy = change;
