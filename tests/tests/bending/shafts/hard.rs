@@ -109,6 +109,32 @@ fn a_stiff_rotor_that_lags_keeps_its_modes_and_its_critical_speed() {
     assert!((only.value - 41_747.130_1).abs() < 1e-3, "{}", only.value);
 }
 
+/// Along a speed forward modes become faster and backward ones slower: another is among the twelve lowest in the end, and is found.
+#[test]
+fn others_become_the_lowest_along_a_speed() {
+    let study = Study::new(machine(
+        "mechanism Members { input omega: rad/s;
+            material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+            body rotor: shaft(along: x, up: z, material: steel, sections: [[300 mm, 50 mm], [500 mm, 60 mm], [200 mm, 50 mm]])
+                spinning at omega;
+            body wheel: disk(mass: 30 kg, radius: 250 mm, axis: x);
+            joint turns: revolute(x) from rotor at station 1 to wheel, driven at omega;
+            body small: disk(mass: 10 kg, radius: 150 mm, axis: x);
+            joint follows: revolute(x) from rotor at tip to small, driven at omega;
+            point seat_a: ground; point a: rotor at root; point seat_b: ground at [800, 0, 0] mm; point b: rotor at station 2;
+            force left: bushing(from: seat_a, to: a, stiffness: [0, 40, 50] MN/m, damping: [0, 3, 3] kN*s/m);
+            force right: bushing(from: seat_b, to: b, stiffness: [0, 40, 50] MN/m, damping: [0, 3, 3] kN*s/m); }",
+    ));
+    let speeds: Vec<f64> = (0..41).map(|k| 200.0 * f64::from(k)).collect();
+    let along =
+        study.sweep(Input::new(0), &speeds).expect("a sweep").points.pop().expect("points").modes.expect("modes");
+    let alone = study.input(Input::new(0), 8000.0).modes().expect("modes");
+    for mode in &alone.modes {
+        let near = |other: &eigentol::Mode| (other.s - mode.s).norm() < 1e-9 * mode.s.norm();
+        assert!(along.modes.iter().any(near), "{}", mode.s);
+    }
+}
+
 /// The coefficients of a bearing overshoot between two values that are close to each other: what cannot be resolved there does not hide
 /// the critical speeds behind it.
 #[test]
