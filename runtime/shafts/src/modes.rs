@@ -36,8 +36,6 @@ const TURNS: usize = 4;
 const STEPS: usize = 12;
 /// A relative step after which `s` and both vectors are as exact as rounding lets them be.
 const CLOSE: f64 = 1e-9;
-/// What is left as a part of `s` that counts as nothing: of steps that shrink by a factor, at most that of the last two times the last.
-const EXACT: f64 = 1e-14;
 /// A relative step behind which the next, unless it is much smaller, is rounding in any motion ([`jitter`]).
 const STAYS: f64 = 1e-7;
 /// The square of an eigenvalue that is rounding, as a part of the terms that cancel in it.
@@ -280,8 +278,7 @@ impl Assembly {
                 let Some((mode, step, pencil)) = self.step(mode, pencil) else { continue };
                 // What remains is the cube of the last step, or rounding where steps no longer shrink.
                 let stays = step > 0.1 * last && step.max(last) < jitter(mode.s, terms);
-                let is_exact = step < CLOSE || last.is_finite() && step * step < EXACT * last;
-                if is_exact || stays {
+                if step < CLOSE || stays {
                     found[place] = Some((mode, pencil));
                 } else {
                     next.push((place, mode, step));

@@ -129,7 +129,8 @@ fn a_shaft_under_tension() {
                         .fold(s, |s, _| s - determinant(s, tension) / by(&|step| determinant(s + step, tension), 1e-3))
                 };
                 let expected = (at(force + 500.0) - 2.0 * at(force) + at(force - 500.0)) / 2.5e5;
-                assert!((second - expected).norm() < 1e-3 * expected.norm(), "{force} {s}: {second} {expected}");
+                // The rounding of `s`, up to 3e-11 of it, is 2e-3 of its second derivative.
+                assert!((second - expected).norm() < 5e-3 * expected.norm(), "{force} {s}: {second} {expected}");
             }
             assert!(found > 0, "{force} {number} {direction}");
         }

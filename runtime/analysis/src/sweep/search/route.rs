@@ -55,11 +55,8 @@ pub(crate) enum Met<'a> {
 
 /// Maximum number of states of a search.
 const MOST_STATES: usize = 4000;
-/// What a step may take of those that are left, in units of its part of the way that is left: what is not resolved there must not hide
-/// what is behind it.
-const OF_STEP: f64 = 2.0;
-/// The least that it may take.
-const FEWEST_STATES: usize = 8;
+/// What one step may take of those that are left: what is not resolved there must not hide what is behind it.
+const OF_STEP: usize = 8;
 /// Part of the range below which a step that has taken all it may is not shortened any more.
 const COARSE: f64 = 1.0 / 32.0;
 /// Maximum number of pieces of the way: a safeguard.
@@ -311,10 +308,7 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let closes = after.place.p == self.settings.high;
         let outer = [self.route.points.is_empty(), closes];
         let turns = before.signs.falling != after.signs.falling;
-        let Continuation { low, high, .. } = *self.settings;
-        let way = (after.place.p - before.place.p).abs();
-        let part = OF_STEP * way / (high - before.place.p).abs();
-        let share = ((part.min(1.0) * self.left as f64) as usize).max(FEWEST_STATES).min(self.left);
+        let share = self.left.div_ceil(OF_STEP);
         let mut left = share;
         let step = Step::new(curve, self.question, [before, after], &mut left);
         let Some(mut step) = step else {
@@ -325,7 +319,8 @@ impl<F: FnMut(Met<'_>) -> bool> Search<'_, F> {
         let Some(findings) = findings else {
             drop(step);
             self.left -= share - left;
-            let resolves = left > 0 || way > COARSE * (high - low).abs();
+            let Continuation { low, high, .. } = *self.settings;
+            let resolves = left > 0 || (after.place.p - before.place.p).abs() > COARSE * (high - low).abs();
             if shorter && resolves && self.left > 0 {
                 return ControlFlow::Continue(Pass::Shorter);
             }
