@@ -428,6 +428,22 @@ fn random_shafts_do_not_depend_on_the_elements() {
 }
 
 #[test]
+fn forms_do_not_depend_on_what_stands_beside_them() {
+    for line in [Line::Timoshenko, Line::Slender] {
+        let assembly = random(3, line, 2, 5);
+        let modes = modes(&assembly, 5);
+        let pair = |(a, b): (&Mode, &Mode)| (a.left.clone(), b.s, b.right.clone());
+        let all: Vec<_> = modes.iter().zip(modes.iter().rev()).map(pair).collect();
+        let forms: Vec<Form<'_>> = all.iter().map(|(left, s, right)| Form { left, s: *s, right }).collect();
+        let (gradients, inertia) = (assembly.gradients(&forms), assembly.inertia(&forms));
+        for (k, form) in forms.iter().enumerate() {
+            assert_eq!(assembly.gradients(&[*form])[0], gradients[k], "{line:?}");
+            assert_eq!(assembly.inertia(&[*form])[0], inertia[k], "{line:?}");
+        }
+    }
+}
+
+#[test]
 fn random_slopes_are_those_of_differences() {
     for (seed, line) in (1..9).flat_map(|seed| [(seed, Line::Timoshenko), (seed, Line::Slender)]) {
         let assembly = random(seed, line, 1, 5);
