@@ -392,21 +392,21 @@ impl Assembly {
         BESIDE.iter().find_map(|part| self.at(s * (1.0 + part)))
     }
 
-    /// The same of the stations alone, from the pencil at `s`: factors, the pencil that they are of, and whether it is another one.
-    fn factored_beside(&self, s: Complex, pencil: Pencil) -> Option<(Lu<Complex>, Pencil, bool)> {
+    /// The same of the stations alone, from the pencil at `s`: factors, the pencil that they are of, and how far it is beside `s`.
+    fn factored_beside(&self, s: Complex, pencil: Pencil) -> Option<(Lu<Complex>, Pencil, Complex)> {
         if let Some(factors) = factored(&pencil) {
-            return Some((factors, pencil, false));
+            return Some((factors, pencil, Complex::ZERO));
         }
         BESIDE[1..].iter().find_map(|part| {
             let beside = self.pencils(&[s * (1.0 + part)]).pop()?;
-            Some((factored(&beside)?, beside, true))
+            Some((factored(&beside)?, beside, s * *part))
         })
     }
 
     /// A two-sided Newton step, its size relative to `s`, and the pencil behind it, as far as the step is small.
     fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64, Pencil)> {
         let Mode { mut s, right, left } = mode;
-        let (factors, mut pencil, is_exact) = self.factored_beside(s, pencil)?;
+        let (factors, mut pencil, aside) = self.factored_beside(s, pencil)?;
         // T(s) right = on, so that on is what is left of the equations.
         let on = times(&pencil.slope, &right);
         let mut right = factors.solve(&on);
@@ -416,10 +416,10 @@ impl Assembly {
         let rest = dot_complex(&left, &on) * size;
         let change = rest / dot_complex(&left, &times(&pencil.slope, &right));
         // Where rounding is all that is left of the determinant, `s` is as exact as it can be.
-        let change = if is_exact { Complex::ZERO } else { change };
+        let change = if aside == Complex::ZERO { change } else { Complex::ZERO };
         s -= change;
         let step = change.norm() / s.norm();
-        add_scaled(&mut pencil.matrix, -change, &pencil.slope);
+        add_scaled(&mut pencil.matrix, -change - aside, &pencil.slope);
         step.is_finite().then_some((Mode { s, right, left }, step, pencil))
     }
 
