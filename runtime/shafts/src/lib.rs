@@ -6,6 +6,7 @@ mod chain;
 mod element;
 mod error;
 mod gradients;
+mod krylov;
 mod modes;
 mod motion;
 mod number;

@@ -38,9 +38,7 @@ impl Answer for Modes {
         said.note_if_any(self.of_harmonics());
         if !self.description.spans.is_empty() {
             let count = self.modes.len();
-            said.note(format!(
-                "The {count} slowest modes of shafts and all else are sought: whether a faster one grows is not judged."
-            ));
+            said.note(format!("Only the {count} slowest modes are computed: growth of faster ones is not checked."));
         }
         if self.damping_ignored {
             said.note("Damping and gyroscopic forces (Chat) are not zero here and are ignored: undamped modes.");
