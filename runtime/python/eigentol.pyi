@@ -1206,6 +1206,18 @@ class Study:
         """A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input.
         Values are SI, texts with units, or numbers in `unit`.
         """
+    def event_map(
+        self,
+        input: str,
+        low: Value,
+        high: Value,
+        over: str,
+        values: Sequence[Value],
+        orders: Sequence[float] = ...,
+    ) -> Answer:
+        """Events along an input between two values, SI or texts with units, at each of the values of a design variable: a critical
+        speed map over the stiffness of bearings, limits of stability over what cross-couples.
+        """
     def crossings(self, input: str, low: Value, high: Value, order: float = 1.0, offset: float = 0.0) -> Answer:
         """Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and
         `offset` (rad/s) more, and how tolerances move them.

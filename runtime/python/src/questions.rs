@@ -2,7 +2,7 @@
 
 use eigentol::response::Vibration;
 use eigentol::sweep::{Line, Range};
-use eigentol::{Coordinate, Input};
+use eigentol::{Coordinate, DesignVariable, Input};
 use eigentol_interpreter::{Interpreted, range, vibration};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -12,7 +12,7 @@ use crate::errors::invalid;
 use crate::hints;
 use crate::results::{Answer, Equilibrium, ForcedResponse, Modes, MonteCarlo, Sensitivities, Sweep};
 use crate::study::Study;
-use crate::values::{List, meaningless, mode_number, not_finite, number, numbers, text};
+use crate::values::{List, all_finite, meaningless, mode_number, number, numbers, text};
 
 /// Steps between the values of a range that a text gives.
 const STEPS: usize = 50;
@@ -183,10 +183,8 @@ impl Study {
                 .collect::<PyResult<_>>()?,
         };
         let values: Vec<f64> = converted;
-        match values.iter().find(|value| !value.is_finite()) {
-            None => Ok((Input::new(index), values)),
-            Some(other) => Err(not_finite(py, input, *other)),
-        }
+        all_finite(py, input, &values)?;
+        Ok((Input::new(index), values))
     }
 }
 
@@ -399,10 +397,30 @@ impl Study {
         unit: Option<&str>,
     ) -> PyResult<Answer> {
         let (input, values) = self.values(py, input, values, unit)?;
-        if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
-            return Err(not_finite(py, "orders", *other));
-        }
+        all_finite(py, "orders", &orders)?;
         self.ask_stoppably(py, |study| study.campbell(input, &values, &orders)).map(Answer::new)
+    }
+
+    /// Events along an input between two values, SI or texts with units, at each of the values of a design variable: a critical
+    /// speed map over the stiffness of bearings, limits of stability over what cross-couples.
+    #[pyo3(signature = (input, low, high, over, values, orders=vec![1.0]))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn event_map(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &hints::Value<'_>,
+        high: &hints::Value<'_>,
+        over: &str,
+        values: Vec<hints::Value<'_>>,
+        orders: Vec<f64>,
+    ) -> PyResult<Answer> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        let (index, unit) = List::Design.find(py, self.inner.description(), over)?;
+        let values: Vec<f64> = values.iter().map(|value| number(value, &unit, over)).collect::<PyResult<_>>()?;
+        all_finite(py, "orders", &orders)?;
+        let over = DesignVariable::new(index);
+        self.ask_stoppably(py, |study| study.event_map(input, low, high, &orders, over, &values)).map(Answer::new)
     }
 
     /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and

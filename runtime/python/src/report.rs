@@ -13,7 +13,7 @@ use crate::errors::raise;
 use crate::figures;
 use crate::hints::Anything;
 use crate::study::Study;
-use crate::values::not_finite;
+use crate::values::all_finite;
 
 /// Modes in a figure of deflection curves.
 const DRAWN: usize = 6;
@@ -86,9 +86,7 @@ impl Study {
                 return Err(raise(py, eigentol::Error::setting(setting, reason)));
             }
         };
-        if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
-            return Err(not_finite(py, "orders", *other));
-        }
+        all_finite(py, "orders", &orders)?;
         let text = self.mechanism(py).get().text().to_owned();
         let sweep = match sweep {
             None => None,

@@ -34,6 +34,10 @@ pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
     invalid(py, format!("`{name}` is {value}: give a finite value"))
 }
 
+pub(crate) fn all_finite(py: Python<'_>, name: &str, values: &[f64]) -> PyResult<()> {
+    values.iter().find(|value| !value.is_finite()).map_or(Ok(()), |value| Err(not_finite(py, name, *value)))
+}
+
 /// The index of a mode, from 0.
 pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
     usize::try_from(mode).map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))

@@ -155,6 +155,16 @@ def test_campbell(study):
     assert abs(crossing.value - np.sqrt(3 * G / 2 / np.sqrt(0.19))) < 1e-8
 
 
+def test_event_map(study):
+    found = study.event_map("omega", 1.0, "8 rad/s", "l", [0.5, "100 cm"])
+    assert [over for over, events in found.points] == [0.5, 1.0]
+    # The bar swings outwards where omega^2 = 3 g / (2 l).
+    for (over, _), value in zip(found.points, found["omega"]):
+        np.testing.assert_allclose(value, np.sqrt(1.5 * G / over), rtol=1e-7)
+    with pytest.raises(eigentol.UnknownName, match="that is an input"):
+        study.event_map("omega", 1.0, 8.0, "omega", [0.5])
+
+
 def test_branches(study):
     found = study.branches("omega", 1.0, 8.0)
     special = [special.value for branch in found.branches for special in branch.special]

@@ -1,7 +1,5 @@
 //! Spans of shafts between stations, and everything else there is at the stations.
 
-use std::sync::OnceLock;
-
 use eigentol_numerics::Complex;
 use eigentol_numerics::algebra::{Lu, Matrix, Vector};
 
@@ -10,7 +8,7 @@ use crate::chain::{Along, Chain};
 use crate::element::{Element, Node, loads};
 use crate::error::Error;
 use crate::motion::{Kept, Motion, Side};
-use crate::section::{Coefficients, Line, Number, TERMS, at, slope_at};
+use crate::section::{Coefficients, Line, TERMS, at, slope_at};
 use crate::span::{Span, check};
 
 /// Spans with what is at their stations: `T(s) = s^2 M + s C + K + spans(s)`.
@@ -21,8 +19,6 @@ pub struct Assembly {
     kinds: Vec<Vec<usize>>,
     /// Of the different sections of each span in each direction.
     coefficients: Vec<Vec<Vec<Coefficients>>>,
-    /// How they change, once asked for.
-    changes: OnceLock<Vec<Vec<Vec<Vec<Change>>>>>,
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
@@ -36,14 +32,6 @@ pub struct Condensed<'a> {
     /// 1/s.
     pub s: Complex,
     chains: Vec<Vec<Chain>>,
-}
-
-/// How a coefficient changes with a number, or behind these with the speed.
-#[derive(Clone, Debug)]
-pub(crate) struct Change {
-    pub(crate) number: usize,
-    pub(crate) term: usize,
-    pub(crate) slope: [Complex; 3],
 }
 
 /// An assembly at one `s`, factored.
@@ -81,7 +69,7 @@ impl Assembly {
             coefficients.push(span.directions().iter().map(|&direction| of(direction)).collect());
             kinds.push(own);
         }
-        Ok(Self { spans, kinds, coefficients, changes: OnceLock::new(), mass, damping, stiffness, degree })
+        Ok(Self { spans, kinds, coefficients, mass, damping, stiffness, degree })
     }
 
     /// The number of unknowns of the stations.
@@ -183,27 +171,6 @@ impl Assembly {
         };
         let chains = self.spans.iter().enumerate().map(of_span).collect();
         Condensed { assembly: self, s, chains }
-    }
-
-    /// How the coefficients of the different sections of each span in each direction change: what is not zero.
-    pub(crate) fn changes(&self) -> &[Vec<Vec<Vec<Change>>>] {
-        let of_section = |span: &Span, direction: f64, section: usize| -> Vec<Change> {
-            let element = span.element(section);
-            let by_number = Number::ALL.map(|number| element.slopes(span.line, direction * span.speed, number));
-            let by_speed = element.by_speed(span.line).map(|term| term.map(|slope| slope * direction));
-            let all = by_number.into_iter().chain([by_speed]).enumerate();
-            let terms = all.flat_map(|(number, all)| {
-                all.into_iter().enumerate().map(move |(term, slope)| Change { number, term, slope })
-            });
-            terms.filter(|change| change.slope != [Complex::ZERO; 3]).collect()
-        };
-        let of_span = |(index, span): (usize, &Span)| {
-            let each = span.directions().iter().enumerate().map(|(d, &direction)| {
-                self.different(index, d).map(|(section, _)| of_section(span, direction, section)).collect()
-            });
-            each.collect()
-        };
-        self.changes.get_or_init(|| self.spans.iter().enumerate().map(of_span).collect())
     }
 
     /// The loads that a motion asks for: each coefficient times what `of` makes of it, and the matrices of the stations

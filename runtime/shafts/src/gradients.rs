@@ -3,7 +3,7 @@
 use eigentol_contract::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use eigentol_numerics::Complex;
 
-use crate::assembly::{Assembly, Change};
+use crate::assembly::Assembly;
 use crate::basis::Class;
 use crate::chain::{Along, Chain};
 use crate::element::{Element, Node, forms, loads};
@@ -158,9 +158,8 @@ fn of_chain<V: Lanes, const GRADIENT: bool>(
     numbers: &mut [Pair<V>],
 ) {
     let span = &assembly.spans()[index];
-    let (classes, changes) = (assembly.classes_of(span.line), &assembly.changes()[index][direction]);
-    let mut kinds = Vec::with_capacity(changes.len());
-    let mut elements = Vec::with_capacity(changes.len());
+    let classes = assembly.classes_of(span.line);
+    let (mut kinds, mut elements) = (Vec::new(), Vec::new());
     for (section, coefficients) in assembly.different(index, direction) {
         let k = at(coefficients, s);
         elements.push(Element::new(classes, span.shape(section), &k));
@@ -197,19 +196,17 @@ fn of_chain<V: Lanes, const GRADIENT: bool>(
         numbers[0] += product(slope, &all);
         let row = OWN + Number::ALL.len() * section;
         // Elements share the length of their section.
-        let share = 1.0 / span.sections[section].1 as f64;
-        for Change { number, term, slope: [a, b, c] } in &changes[kind] {
-            let change = (Pair::of(*a) + s * (Pair::of(*b) + s * Pair::of(*c))) * all[*term];
-            match *number {
-                number if number == Number::Length as usize => numbers[row] += change.times(share),
-                number if number < Number::ALL.len() => numbers[row + number] += change,
-                _ => numbers[1] += change,
-            }
+        let (element, share) = (span.element(section), 1.0 / span.sections[section].1 as f64);
+        let all = element.slopes((span.line, span.speed, span.directions()[direction]), s, k, &all);
+        numbers[row] += all[0].times(share);
+        for (to, slope) in numbers[row + 1..].iter_mut().zip(&all[1..Number::ALL.len()]) {
+            *to += *slope;
         }
+        numbers[1] += all[Number::ALL.len()];
         if span.line == Line::Slender {
             // The slopes at the nodes, times half the length, are unknowns of the element.
             let by_slope = at_slope(classes, k, left, right) + at_slope(classes, k, right, left);
-            numbers[row] += by_slope.times(share / span.element(section).length);
+            numbers[row] += by_slope.times(share / element.length);
         }
     }
 }

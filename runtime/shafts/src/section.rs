@@ -127,37 +127,49 @@ impl Section {
         coefficients(line, &Number::ALL.map(|number| self.number(number).into()), speed.into())
     }
 
-    /// Derivative of the coefficients by a number.
-    pub(crate) fn slopes(&self, line: Line, speed: f64, number: Number) -> Coefficients {
-        let with = |change: &dyn Fn(&mut Self)| {
-            let mut own = *self;
-            change(&mut own);
-            own.coefficients(line, speed)
+    /// Derivatives of the sum of the coefficients `k` at `s` times these forms, by the numbers of the section and behind them by
+    /// the speed, in one direction.
+    #[inline(always)]
+    pub(crate) fn slopes<T: Field>(
+        &self,
+        (line, speed, direction): (Line, f64, f64),
+        s: T,
+        k: &[T; TERMS],
+        forms: &[T; TERMS],
+    ) -> [T; Number::ALL.len() + 1] {
+        let (half, per_half) = (0.5 * self.length, 2.0 / self.length);
+        // What rotary inertia and stiffness are multiplied by, and the powers of the length in each coefficient.
+        let (inertia, elastic, powers) = match line {
+            Line::Timoshenko => (half, per_half, [1.0, 1.0, -1.0, -1.0, 0.0]),
+            Line::Slender => (per_half, per_half * per_half * per_half, [1.0, -1.0, -3.0, 0.0, 0.0]),
+            Line::Bar => (0.0, per_half, [1.0, -1.0, 0.0, 0.0, 0.0]),
         };
-        // All but the length enter linearly, the lag together with the stiffness.
-        match number {
-            Number::Length => {
-                let half = self.length / 2.0;
-                let powers: [[f64; 3]; TERMS] = match line {
-                    Line::Timoshenko => [[1.0; 3], [1.0; 3], [-1.0; 3], [-1.0; 3], [0.0; 3]],
-                    Line::Slender => [[1.0; 3], [-1.0; 3], [-3.0; 3], [0.0; 3], [0.0; 3]],
-                    Line::Bar => [[1.0; 3], [-1.0; 3], [0.0; 3], [0.0; 3], [0.0; 3]],
-                };
-                let all = self.coefficients(line, speed);
-                core::array::from_fn(|m| core::array::from_fn(|k| all[m][k] * (powers[m][k] / (2.0 * half))))
-            }
-            number => {
-                let high = with(&|own| *own.number_mut(number) = 1.0);
-                let low = with(&|own| *own.number_mut(number) = 0.0);
-                core::array::from_fn(|m| core::array::from_fn(|k| high[m][k] - low[m][k]))
-            }
+        let along = forms[3].times(per_half);
+        let (by_shear, by_tension) = match line {
+            Line::Timoshenko => (forms[1].times(half) + along - forms[4], along),
+            Line::Slender => (T::zero(), forms[1].times(per_half)),
+            Line::Bar => (T::zero(), T::zero()),
+        };
+        let mut by_length = T::zero();
+        for ((k, form), power) in k.iter().zip(forms).zip(powers) {
+            by_length += (*k * *form).times(power / self.length);
         }
-    }
-
-    /// Derivative of the coefficients by the speed.
-    pub(crate) fn by_speed(&self, line: Line) -> Coefficients {
-        let (high, low) = (self.coefficients(line, 1.0), self.coefficients(line, 0.0));
-        core::array::from_fn(|m| core::array::from_fn(|k| high[m][k] - low[m][k]))
+        let moved = (s * forms[0]).times(half);
+        let turned = (s * forms[1]).times(inertia);
+        let bent = if line == Line::Bar { forms[1] } else { forms[2] }.times(elastic);
+        let turn = T::of(Complex::new(0.0, direction));
+        let lagging = (s - turn.times(speed)) * bent;
+        [
+            by_length,
+            bent + lagging.times(self.lag),
+            by_shear,
+            s * moved,
+            (s - turn.times(2.0 * speed)) * turned,
+            lagging.times(self.stiffness),
+            by_tension,
+            moved,
+            -(turn * (turned.times(2.0 * self.rotary) + bent.times(self.stiffness * self.lag))),
+        ]
     }
 }
 
