@@ -73,11 +73,9 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn modes(&self, count: usize) -> Result<Vec<Found>, Error> {
-        let rigid = self.rigid();
         // Where one of them has been lost, a larger space knows it better.
         for more in [2, 8] {
-            let wanted = |s: Complex| s.im > rigid && !self.gathers(s);
-            let (mut modes, lost) = self.of_krylov((count + more, count), wanted)?;
+            let (mut modes, lost) = self.of_krylov((count + more, count), |s| self.oscillates(s))?;
             modes.sort_by(|(a, _), (b, _)| a.s.norm().total_cmp(&b.s.norm()));
             modes.truncate(count);
             let complete = modes.len() == count && modes.iter().all(|(mode, _)| mode.s.norm() < lost);
@@ -89,12 +87,41 @@ impl Assembly {
         Err(Error::NotConverged)
     }
 
+    /// The modes that continue those of a neighbouring speed or design. Where one of these is no more, or `all` are wanted, behind
+    /// them those of the lowest `count` that are new.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`].
+    pub fn continued(&self, from: &[Mode], count: usize, all: bool) -> Result<Vec<Found>, Error> {
+        let mut found: Vec<Found> = Vec::new();
+        for own in self.refined(from).into_iter().flatten() {
+            if self.oscillates(own.0.s) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
+                found.push(own);
+            }
+        }
+        if found.len() == from.len() && !all {
+            return Ok(found);
+        }
+        let lowest = self.modes(count)?;
+        let equal = |all: &[Found], mode: &Mode| all.iter().filter(|(other, _)| other.is_near(mode)).count();
+        for own in &lowest {
+            // Of equal ones any combinations are modes.
+            if equal(&found, &own.0) < equal(&lowest, &own.0) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
+                found.push(own.clone());
+            }
+        }
+        Ok(found)
+    }
+
+    fn oscillates(&self, s: Complex) -> bool {
+        s.im > self.rigid() && !self.gathers(s)
+    }
+
     /// Whether these eigenvalues are all that the search would find below the greatest of them, as far as a Krylov space tells.
     #[must_use]
     pub fn has_all(&self, known: &[Complex]) -> bool {
-        let rigid = self.rigid();
-        let wanted = |s: Complex| s.im > rigid && !self.gathers(s);
-        let Ok(found) = self.krylov((known.len() + 2, known.len()), &wanted) else { return false };
+        let found = self.krylov((known.len() + 2, known.len()), &|s| self.oscillates(s));
+        let Ok(found) = found else { return false };
         let greatest = known.iter().map(|s| s.norm()).fold(0.0, f64::max);
         let is_known = |own: &Ritz| {
             let reach = (FAR * own.rest).max(SAME) * own.s.norm();

@@ -3,6 +3,7 @@
 use core::cell::RefCell;
 
 use super::bordered::Bordered;
+use super::curve_point::CurvePoint;
 use super::local_scaling::{CurvePosition, Frame, System};
 use super::settings::Continuation;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
@@ -13,9 +14,9 @@ use crate::equilibrium::{
 use crate::error::NotFound;
 use crate::free::{FreeDirections, Held};
 use crate::kernels::{DirectionalKernels, Linear};
-use crate::modes::{Followed, judge_shafts};
+use crate::modes::{Followed, completed, judge_shafts};
 use crate::rounding;
-use crate::{Description, Equilibrium, Error, Shared, Watch};
+use crate::{Description, Equilibrium, Error, Mode, Shared, Watch};
 
 /// A mechanism with one varying input.
 pub(crate) struct Curve<'a> {
@@ -273,14 +274,34 @@ impl<'a> Curve<'a> {
         state.residual = residual;
         state.relative_residual = relative;
         state.iterations = iterations;
-        let near = self.followed.borrow().modes().to_vec();
-        if let Some((stability, modes)) = judge_shafts(self.mechanism, &mut state, &near, true) {
-            self.followed.borrow_mut().take(at.p, &state, &modes);
-            state.stability = stability;
-            return Ok(SolvedState { state, modes });
-        }
-        let modes = verdict.modes;
+        let modes = self.judged(&mut state).unwrap_or(verdict.modes);
         Ok(SolvedState { state, modes })
+    }
+
+    /// Judges a state of shafts by the modes that it has; `None` without shafts.
+    pub(crate) fn judged(&self, state: &mut Equilibrium) -> Option<Vec<Mode>> {
+        let near = self.followed.borrow().modes().to_vec();
+        let (stability, modes) = judge_shafts(self.mechanism, state, &near, true)?;
+        self.followed.borrow_mut().take(state.inputs[self.settings.input.index()], &modes);
+        state.stability = stability;
+        Some(modes)
+    }
+
+    /// A point of shafts with all of the lowest modes.
+    pub(crate) fn completed(&self, mut point: CurvePoint) -> CurvePoint {
+        if !self.description.spans.is_empty() {
+            point.judged = completed(&point.equilibrium, point.judged);
+            self.followed.borrow_mut().join(&point.judged);
+        }
+        point
+    }
+
+    /// A point with the modes of shafts that continue those of another.
+    pub(crate) fn judged_beside(&self, mut point: CurvePoint, nearby: &[Mode]) -> CurvePoint {
+        if let Some((_, modes)) = judge_shafts(self.mechanism, &mut point.equilibrium, nearby, true) {
+            point.judged = modes;
+        }
+        point
     }
 
     /// The free directions at a point of the branch, and what holds it.

@@ -100,7 +100,10 @@ impl Curve<'_> {
     }
 
     /// The first station of a branch, with its tangent towards the high end of the range.
-    pub(crate) fn first_station(&self, judged: SolvedState) -> Result<CurvePoint, ContinuationFailure> {
+    pub(crate) fn first_station(&self, mut judged: SolvedState) -> Result<CurvePoint, ContinuationFailure> {
+        if judged.modes.is_empty() {
+            judged.modes = self.judged(&mut judged.state).unwrap_or_default();
+        }
         let equilibrium = &judged.state;
         let position =
             CurvePosition { q: equilibrium.coordinates.clone(), p: equilibrium.inputs[self.settings.input.index()] };

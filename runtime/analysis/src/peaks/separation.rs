@@ -11,6 +11,8 @@ use crate::forced::Measure;
 
 /// Amplification factor below which a peak counts as damped away.
 const DAMPED: f64 = 2.5;
+/// The most that any amplification factor asks for below a range.
+const MOST: f64 = 0.16;
 
 /// The distances of peaks from a range of operation.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,8 +49,8 @@ impl SeparationMargin {
 
 impl Peaks {
     /// The separation margins from a range of operation, SI, in the manner of API 617: with an amplification factor `AF`
-    /// of at least 2.5, `17 (1 - 1 / (AF - 1.5))` percent below the range and ten more above it. The numbers are those
-    /// commonly quoted of the standard, which decides.
+    /// of at least 2.5, `17 (1 - 1 / (AF - 1.5))` percent below the range, but 16 at most, and ten more above it. The numbers are
+    /// those commonly quoted of the standard, which decides.
     #[must_use]
     pub fn separation(self, operating: [f64; 2]) -> Separation {
         let [low, high] = operating;
@@ -66,7 +68,7 @@ fn margin(peak: &Peak, [low, high]: [f64; 2]) -> SeparationMargin {
     };
     let required = peak.amplification.as_ref().map(|amplification| {
         let factor = amplification.value;
-        if factor < DAMPED { 0.0 } else { extra + 0.17 * (1.0 - 1.0 / (factor - 1.5)) }
+        if factor < DAMPED { 0.0 } else { extra + f64::min(MOST, 0.17 * (1.0 - 1.0 / (factor - 1.5))) }
     });
     SeparationMargin { actual: location.scaled(slope, value), required }
 }

@@ -13,7 +13,7 @@ use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
 use crate::modes::{
-    CLUSTER_GAP, Family, Followed, holds, match_with_assurance, merged, near_another, position, stay_in_place,
+    CLUSTER_GAP, Family, Followed, completed, holds, match_with_assurance, merged, near_another, position, stay_in_place,
 };
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;
@@ -304,6 +304,9 @@ impl<'a> Tracker<'a> {
             if let Ok(state) = &point.equilibrium {
                 self.path.go(point.value, state.coordinates.iter().copied());
                 self.from.clone_from(&state.coordinates);
+                if let Ok(modes) = &point.modes {
+                    self.followed.join(&modes.modes);
+                }
                 self.last = Some(Box::new(point.clone()));
                 self.unchanged = None;
             }
@@ -386,9 +389,12 @@ impl<'a> Tracker<'a> {
         point.value = value;
         let (state, point_modes) = point.solved_mut().map_err(|error| error.clone())?;
         let at = (value, self.policy);
-        let judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
+        let mut judged = self.equilibrium_into(at, &self.from, predicted.as_deref(), state)?;
         if !self.description.spans.is_empty() {
-            self.followed.take(value, state, &judged);
+            if self.followed.is_due() {
+                judged = completed(state, judged);
+            }
+            self.followed.take(value, &judged);
         }
         // Without modes to recognise, a state that is not where the path leads may be on another branch.
         let astray = match &predicted {

@@ -12,6 +12,8 @@ use crate::{Behaviour, Complex, Modes};
 pub const EIGENVALUE_SHARE: f64 = 0.05;
 /// Above this assurance a mode is recognised without looking at the other modes of its set.
 const CERTAIN: f64 = 0.6;
+/// Below this assurance two modes of shafts are not one.
+const ALIKE: f64 = 0.3;
 
 /// Similarity, from 0 to 1, of mode `i` of `from` to mode `j` of `to`: `table[i][j]`.
 ///
@@ -91,7 +93,7 @@ fn real_form(n: usize, x: &[Complex], mass: &[f64], y: &[Complex]) -> f64 {
 }
 
 /// Matches modes: for each mode of `from`, the position of the mode of `to` that is the same motion; `None` if `to` has
-/// fewer modes.
+/// fewer modes, and of shafts, whose lowest modes are not always the same, if none of them is like it.
 ///
 /// Pairs are assigned in descending order of assurance, ties in order of position. No position occurs twice, and the
 /// result is deterministic.
@@ -124,6 +126,7 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
         }
     }
     let table = assurance(from, to, linear);
+    let least = if from.description.spans.is_empty() { 0.0 } else { ALIKE };
     let mut matched = Vector::filled(here, None);
     let mut used = vec![false; there];
     for _ in 0..here.min(there) {
@@ -135,7 +138,7 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
                 }
             }
         }
-        if let Some((i, j, most)) = best {
+        if let Some((i, j, most)) = best.filter(|(.., most)| *most >= least) {
             matched[i] = Some((j, most));
             used[j] = true;
         }

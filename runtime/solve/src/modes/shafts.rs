@@ -8,9 +8,9 @@ use crate::kernels::Kernels;
 use crate::shafts::{Shafts, form, numbers};
 use crate::{Complex, Description, Equilibrium, Stability};
 use eigentol_contract::LineKind;
-use eigentol_shafts::{Found, Line, Pencil};
+use eigentol_shafts::{Line, Pencil};
 
-/// After how many states in succession is asked whether others have become the lowest.
+/// After how many states in succession is asked whether there are others among the lowest.
 const FOLLOWED: usize = 8;
 /// Part of the distance to instability, as the last two states have it, for which a state is not judged by itself.
 const SURE: f64 = 0.25;
@@ -38,6 +38,19 @@ impl Followed {
         &self.modes
     }
 
+    /// Whether it is time to ask if there are others among the lowest.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_due(&self) -> bool {
+        (self.states + 1).is_multiple_of(FOLLOWED)
+    }
+
+    /// Goes on from a state with these modes.
+    #[doc(hidden)]
+    pub fn join(&mut self, modes: &[Mode]) {
+        self.modes = modes.to_vec();
+    }
+
     /// Whether a state at this value of the input is stable as those before it were.
     #[doc(hidden)]
     #[must_use]
@@ -48,7 +61,7 @@ impl Followed {
 
     /// Takes a state with its modes; none if it was not judged.
     #[doc(hidden)]
-    pub fn take(&mut self, value: f64, state: &Equilibrium, modes: &[Mode]) {
+    pub fn take(&mut self, value: f64, modes: &[Mode]) {
         self.last = value;
         if modes.is_empty() {
             return;
@@ -62,12 +75,20 @@ impl Followed {
         };
         self.judged = Some((value, growth));
         self.states += 1;
-        let has_all = || {
-            let known: Vec<Complex> = modes.iter().map(|mode| mode.s).collect();
-            Shafts::of(state).is_ok_and(|shafts| shafts.is_some_and(|shafts| shafts.whole.has_all(&known)))
-        };
-        let stays = !self.states.is_multiple_of(FOLLOWED) || has_all();
-        self.modes = if stays { modes.to_vec() } else { Vec::new() };
+        self.modes = modes.to_vec();
+    }
+}
+
+/// The modes of a state of shafts with those among the lowest that are not known.
+#[doc(hidden)]
+#[must_use]
+pub fn completed(state: &Equilibrium, modes: Vec<Mode>) -> Vec<Mode> {
+    let known: Vec<Complex> = modes.iter().map(|mode| mode.s).collect();
+    match Shafts::of(state) {
+        Ok(Some(shafts)) if !modes.is_empty() && !shafts.whole.has_all(&known) => {
+            shafts.modes(state, &modes, true).unwrap_or(modes)
+        }
+        _ => modes,
     }
 }
 
@@ -92,9 +113,13 @@ fn count(of: &Description) -> usize {
 }
 
 impl Shafts {
-    /// The modes at a state of these shafts, from those of a nearby one if given: the lowest that oscillate.
-    pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode]) -> Option<Vec<Mode>> {
-        let found = self.followed(nearby).or_else(|| self.whole.modes(count(&at.description)).ok())?;
+    /// The modes at a state of these shafts: those that continue others, and where one of these is no more, none is given or `all`
+    /// are wanted, the lowest that oscillate too.
+    pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode], all: bool) -> Option<Vec<Mode>> {
+        let start =
+            |mode: &Mode| eigentol_shafts::Mode { s: mode.s, right: mode.shape.clone(), left: mode.left().into() };
+        let starts: Vec<eigentol_shafts::Mode> = nearby.iter().map(start).collect();
+        let found = self.whole.continued(&starts, count(&at.description), all || starts.is_empty()).ok()?;
         let (mut modes, within) = (Vec::new(), self.whole.terms());
         let (size, leading) = Normalisation::of(&at.description);
         for (own, Pencil { matrix, slope }) in found {
@@ -117,19 +142,6 @@ impl Shafts {
             modes.push(Mode::general(s, (right, left), behaviour, rest, error));
         }
         Some(modes)
-    }
-
-    /// The modes next to others; `None` if two of them became one.
-    fn followed(&self, nearby: &[Mode]) -> Option<Vec<Found>> {
-        if nearby.is_empty() {
-            return None;
-        }
-        let start =
-            |mode: &Mode| eigentol_shafts::Mode { s: mode.s, right: mode.shape.clone(), left: mode.left().into() };
-        let starts: Vec<eigentol_shafts::Mode> = nearby.iter().map(start).collect();
-        let found: Vec<Found> = self.whole.refined(&starts).into_iter().collect::<Option<_>>()?;
-        let twice = |k: usize| found[..k].iter().any(|(other, _)| other.is_same(&found[k].0));
-        (!(0..found.len()).any(twice)).then_some(found)
     }
 
     /// Adds what spins of the shafts to the sums of the kernel `whirl` of each mode.
@@ -179,7 +191,7 @@ pub fn judge_shafts(
         return Some((Stability::Undecided, Vec::new()));
     }
     let Some(shafts) = Shafts::of(state).ok().flatten() else { return Some((Stability::Undecided, Vec::new())) };
-    let modes = shafts.modes(state, nearby).unwrap_or_default();
+    let modes = shafts.modes(state, nearby, false).unwrap_or_default();
     let stability = if modes.is_empty() { Stability::Undecided } else { stability(state, &shafts, &modes) };
     Some((stability, modes))
 }

@@ -70,17 +70,16 @@ pub(super) fn rows(states: [&[Root]; 3], t: [f64; 3]) -> Vec<[Root; 3]> {
     // A motion that nothing resists may count once or, as two zeros, twice.
     let most = lists.iter().map(Vec::len).max().unwrap_or(0);
     for list in &mut lists {
-        let zero = list.iter().find(|root| root.neutral).or(list.last());
-        let Some(&zero) = zero else {
-            return Vec::new();
-        };
-        list.resize(most, zero);
+        if let Some(&zero) = list.iter().find(|root| root.neutral) {
+            list.resize(most, zero);
+        }
     }
     let [first, middle, last] = &lists;
     let before = links(first, middle, t[1] - t[0]);
     let after = links(last, middle, t[1] - t[2]);
-    let row = |k: usize| [first[before[k]], middle[k], last[after[k]]];
-    (0..most).map(row).filter(|row: &[Root; 3]| !row.iter().all(|root| root.neutral)).collect()
+    // Of a shaft an oscillation may begin or end between two states.
+    let row = |k: usize| Some([*first.get(before[k])?, middle[k], *last.get(after[k])?]);
+    (0..middle.len()).filter_map(row).filter(|row: &[Root; 3]| !row.iter().all(|root| root.neutral)).collect()
 }
 
 /// For each of the second eigenvalues the first one that meets it best halfway.

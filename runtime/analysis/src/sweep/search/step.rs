@@ -22,6 +22,8 @@ pub(super) struct Step<'a, 'b> {
     length: f64,
     /// In order.
     nodes: Vec<Rc<Node>>,
+    /// The most modes that one of them has shown.
+    shown: usize,
     /// How many states may still be solved.
     left: &'a mut usize,
 }
@@ -98,7 +100,7 @@ impl<'a, 'b> Step<'a, 'b> {
         left: &'a mut usize,
     ) -> Option<Self> {
         let chord = ends[0].frame.local(&ends[1].place);
-        Some(Self { curve, question, ends, length: chord.norm(), normal: chord.unit()?, nodes: Vec::new(), left })
+        Some(Self { curve, question, ends, length: chord.norm(), normal: chord.unit()?, nodes: Vec::new(), shown: 0, left })
     }
 
     /// The state at a place.
@@ -110,7 +112,7 @@ impl<'a, 'b> Step<'a, 'b> {
         *self.left = self.left.checked_sub(1)?;
         let point = match t {
             0.0 => self.ends[0].clone(),
-            1.0 => self.ends[1].clone(),
+            1.0 => self.curve.completed(self.ends[1].clone()),
             _ => self.between(t)?,
         };
         let rate = self.rate(&point)?;
@@ -168,9 +170,49 @@ impl<'a, 'b> Step<'a, 'b> {
         (turned <= TURNED * turn + slack).then_some(corrected)
     }
 
+    /// Gives each state the modes of shafts that others of the step have shown; returns whether one was new to it.
+    fn complete(&mut self) -> bool {
+        let shown = |node: &Rc<Node>| node.modes.modes.len();
+        let Some(most) = self.nodes.iter().map(shown).max().filter(|most| *most > self.shown) else { return false };
+        self.shown = most;
+        if self.nodes[0].point.equilibrium.spans.is_empty() {
+            return false;
+        }
+        let full: Vec<Rc<Node>> = self.nodes.iter().filter(|node| shown(node) == most).cloned().collect();
+        let mut gained = false;
+        for k in 0..self.nodes.len() {
+            let node = &self.nodes[k];
+            let apart = |other: &&Rc<Node>| (other.spectrum.t - node.spectrum.t).abs();
+            let near = full.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+            let Some(near) = near.filter(|_| shown(node) < most) else { continue };
+            let point = self.curve.judged_beside(node.point.clone(), &near.modes.modes);
+            let rate = self.rate(&point);
+            let again = rate.and_then(|rate| self.question.node(point, node.spectrum.t, rate).ok()).map(Rc::new);
+            if let Some(again) = again.filter(|again| shown(again) > shown(node)) {
+                self.nodes[k] = again;
+                gained = true;
+            }
+        }
+        gained
+    }
+
     /// The events of the step, in order; `located` are the special points that the walk has found on it, `outer` whether
     /// the search begins or ends with it. `None` if a shorter step tells more.
     pub(super) fn findings(
+        &mut self,
+        wanted: &Wanted,
+        located: &[Located],
+        outer: [bool; 2],
+        finest: f64,
+    ) -> Option<Findings> {
+        self.state(0.0)?;
+        self.state(1.0)?;
+        self.complete();
+        let findings = self.found(wanted, located, outer, finest);
+        if self.complete() { self.found(wanted, located, outer, finest) } else { findings }
+    }
+
+    fn found(
         &mut self,
         wanted: &Wanted,
         located: &[Located],
