@@ -301,18 +301,18 @@ impl Wanted {
         // Near where two merge, the number of either is a root whose slope is no more than rounding.
         let starts = [true, false].map(|merging| [from, from - reach, from + reach].map(|t| (t, merging)));
         let mut places = starts.into_iter().flatten().filter_map(|(start, merging)| {
-            let (mut t, mut last) = (start, f64::INFINITY);
+            let (mut t, mut last, mut known) = (start, f64::INFINITY, reach);
             while let Some(state) = source.state(t.clamp(0.0, 1.0))
                 && let Some(aim) = self.aims(kind, &state, everywhere, merging)
                 && aim.step < 0.5 * last
             {
-                let doubt = (4.0 * aim.error).min(DOUBT * reach);
-                if (aim.t - from).abs() > 2.0 * reach.max(doubt) {
+                known = reach.max((4.0 * aim.error).min(DOUBT * reach));
+                if (aim.t - from).abs() > 2.0 * known {
                     return None;
                 }
                 (t, last) = (aim.t, aim.step);
             }
-            (last < CONVERGED * reach).then_some((t, merging))
+            (last < CONVERGED * known).then_some((t, merging))
         });
         places.next().unwrap_or((from, merging))
     }
