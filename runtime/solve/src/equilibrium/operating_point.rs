@@ -28,8 +28,10 @@ pub struct OperatingPoint<'a> {
     /// rows do not look dependent and only hinder each other. Empty if none is left out.
     dropped: Vec<bool>,
     /// The modes of a nearby state, which speed up the computation of those of this one; may be empty.
-    pub(super) nearby: &'a [Mode],
-    pub(super) needed: Needed,
+    #[doc(hidden)]
+    pub nearby: &'a [Mode],
+    #[doc(hidden)]
+    pub needed: Needed,
     /// Whether each unknown has a start value that was given, not a default; may be empty.
     named: &'a [bool],
     /// What holds the place along free directions; if `None`, it is found from the stiffness itself.
@@ -49,7 +51,8 @@ impl<'a> OperatingPoint<'a> {
     }
 
     /// Checks inputs and design variables like [`Self::new`].
-    pub(super) fn check_values(&self) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn check_values(&self) -> Result<(), Error> {
         let (names, inputs, design) = (&self.description, self.inputs, self.design);
         check_count("inputs", inputs, names.inputs.len())?;
         check_count("design variables", design, names.design.len())?;
@@ -151,16 +154,6 @@ impl<'a> OperatingPoint<'a> {
     #[inline]
     pub fn near(mut self, modes: &'a Modes) -> Self {
         self.nearby = modes.general();
-        self
-    }
-
-    /// This point with the modes of a nearby state of a mechanism with shafts, which has no others.
-    #[doc(hidden)]
-    #[inline]
-    pub fn beside(mut self, modes: &'a [Mode]) -> Self {
-        if !self.description.spans.is_empty() {
-            self.nearby = modes;
-        }
         self
     }
 
@@ -375,24 +368,24 @@ impl<'a> OperatingPoint<'a> {
     /// Refuses matrices that are not finite.
     #[inline]
     pub(crate) fn check(&self, q: &[f64], linear: &Linear) -> Result<(), Failure> {
+        let infinite = self.infinite(q.len(), linear);
+        infinite.map_or(Ok(()), |what| Err(Failure::OutsideDomain { what, coordinates: q.into() }))
+    }
+
+    /// The matrix of size `n` that is not finite, if there is one; see [`for_size`].
+    #[inline(always)]
+    pub(super) fn infinite(&self, n: usize, linear: &Linear) -> Option<&'static str> {
+        let Linear { mass, damping, stiffness } = linear;
         let undamped = matches!(self.description.damping, DampingKind::Zero);
-        let finite = |matrix: &Matrix| {
-            for_size(
-                q.len(),
-                #[inline(always)]
-                |n| all_finite(&matrix.as_flattened()[..n * n]),
-            )
-        };
-        let what = if !finite(&linear.mass) {
-            "the mass matrix"
-        } else if !undamped && !finite(&linear.damping) {
-            "the damping matrix"
-        } else if !finite(&linear.stiffness) {
-            "the stiffness matrix"
+        if !all_finite(&mass.as_flattened()[..n * n]) {
+            Some("the mass matrix")
+        } else if !undamped && !all_finite(&damping.as_flattened()[..n * n]) {
+            Some("the damping matrix")
+        } else if !all_finite(&stiffness.as_flattened()[..n * n]) {
+            Some("the stiffness matrix")
         } else {
-            return Ok(());
-        };
-        Err(Failure::OutsideDomain { what, coordinates: q.into() })
+            None
+        }
     }
 }
 
