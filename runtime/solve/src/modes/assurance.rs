@@ -57,23 +57,34 @@ fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
 #[must_use]
 pub fn stay_in_place(from: &Modes, to: &Modes, linear: &Linear, least: f64) -> bool {
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
-    let mut pairs = from.modes.iter().zip(&to.modes);
-    undamped && from.modes.len() == to.modes.len() && pairs.all(|(x, y)| real_assurance(x, y, &linear.mass) >= least)
+    undamped
+        && from.modes.len() == to.modes.len()
+        && assurance_in_place(from, to, &linear.mass).iter().all(|assurance| *assurance >= least)
 }
 
-/// The assurance of two undamped modes.
-fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
-    let (x, y, mass) = (&from.shape[..], &to.shape[..], mass.as_flattened());
+/// The assurance of undamped modes in the same place.
+fn assurance_in_place(from: &Modes, to: &Modes, mass: &Matrix) -> Vector {
+    let (from, to) = (&from.modes[..], &to.modes[..]);
+    let mut assurance = Vector::zeros(from.len().min(to.len()));
     for_size(
-        x.len(),
+        mass.row_count(),
         #[inline(always)]
         |n| {
-            let (x, y, mass) = (&x[..n], &y[..n], &mass[..n * n]);
-            let scale = real_form(n, x, mass, x) * real_form(n, y, mass, y);
-            let product = real_form(n, x, mass, y);
-            if scale > 0.0 { product * product / scale } else { 0.0 }
+            for (assurance, (x, y)) in assurance.iter_mut().zip(from.iter().zip(to)) {
+                *assurance = real_assurance(n, x, y, mass);
+            }
         },
-    )
+    );
+    assurance
+}
+
+/// The assurance of two undamped modes of `n` components; see [`for_size`].
+#[inline(always)]
+fn real_assurance(n: usize, from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
+    let (x, y, mass) = (&from.shape[..n], &to.shape[..n], &mass.as_flattened()[..n * n]);
+    let scale = real_form(n, x, mass, x) * real_form(n, y, mass, y);
+    let product = real_form(n, x, mass, y);
+    if scale > 0.0 { product * product / scale } else { 0.0 }
 }
 
 /// `x^T mass y` of the real parts.
@@ -117,8 +128,8 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
     // one half.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
-        let assurances = from.modes.iter().zip(&to.modes).map(|(x, other)| real_assurance(x, other, &linear.mass));
-        let matched: Vector<_> = assurances.enumerate().map(Some).collect();
+        let assurances = assurance_in_place(from, to, &linear.mass);
+        let matched: Vector<_> = assurances.iter().copied().enumerate().map(Some).collect();
         if matched.iter().flatten().all(|&(_, same)| same > CERTAIN) {
             return matched;
         }
@@ -186,7 +197,7 @@ pub fn merged(modes: &Modes, r: usize) -> bool {
     /// worse.
     const ILL_CONDITIONED: f64 = 1e5;
     let mode = &modes.modes[r];
-    let free = mode.behaviour == Behaviour::Free;
+    let free = matches!(mode.behaviour, Behaviour::Free);
     if modes.family == Family::Undamped || free || mode.condition <= ILL_CONDITIONED {
         return false;
     }
@@ -244,7 +255,7 @@ pub fn near(modes: &Modes, i: usize, j: usize, gap: f64) -> bool {
 /// Modes of free directions are near no other: their eigenvalues are exactly zero, and nothing mixes them with others.
 #[inline(always)]
 fn near_each_other(family: Family, a: &Mode, b: &Mode, gap: f64) -> bool {
-    if a.behaviour == Behaviour::Free || b.behaviour == Behaviour::Free {
+    if matches!((a.behaviour, b.behaviour), (Behaviour::Free, _) | (_, Behaviour::Free)) {
         return false;
     }
     match family {
