@@ -162,16 +162,19 @@ impl<'a> Tracker<'a> {
         state: &mut Equilibrium,
     ) -> Result<Vec<Mode>, Error> {
         let mut point = OperatingPoint::unchecked(self.mechanism, &self.inputs, &self.design);
-        point.check_values()?;
+        // Behind a first point, only the input is new.
+        if self.last.is_some() && value.is_finite() {
+            point.check_possible()?;
+        } else {
+            point.check_values()?;
+            point.check_start(from)?;
+        }
         if !self.is_alone() {
             point = point.held_by(&self.held);
         }
         point.needed = self.needed;
         if !self.description.spans.is_empty() {
             point.nearby = self.followed.modes();
-        }
-        if self.last.is_none() {
-            point.check_start(from)?;
         }
         state.inputs.set(&self.inputs, |value| *value);
         let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());

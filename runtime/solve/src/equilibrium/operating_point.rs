@@ -58,7 +58,14 @@ impl<'a> OperatingPoint<'a> {
         check_count("design variables", design, names.design.len())?;
         check_finite("input", |k| &names.inputs[k].name, inputs)?;
         check_finite("design variable", |k| &names.design[k].name, design)?;
-        match self.mechanism.violation(inputs, design) {
+        self.check_possible()
+    }
+
+    /// Checks that finite values describe bodies that can exist.
+    #[doc(hidden)]
+    #[inline]
+    pub fn check_possible(&self) -> Result<(), Error> {
+        match self.mechanism.violation(self.inputs, self.design) {
             None => Ok(()),
             Some(violation) => Err(Error::Unphysical {
                 quantity: violation.quantity,

@@ -247,7 +247,7 @@ pub(crate) fn roots(
 }
 
 /// The eigenpairs of symmetric matrices with `count` free directions, which come first.
-#[inline]
+#[inline(always)]
 pub(crate) fn pairs(
     stiffness: &Matrix,
     mass: &Matrix,

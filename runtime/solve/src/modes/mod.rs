@@ -46,7 +46,7 @@ pub use shafts::{Followed, holds, judge_shafts};
 pub use undamped::undamped;
 pub use whirl::{Character, Kind, Sense, Whirl, Whirls, whirls};
 
-use crate::algebra::{Matrix, Vector, asymmetry, dot_complex, for_size};
+use crate::algebra::{Matrix, Vector, asymmetry, dot_complex, for_size, greater};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{Eigenproblem, EigenproblemError, Pairs, Root, roots_near};
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
@@ -387,23 +387,25 @@ fn solve_undamped(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    let alone = structure.open() && free == 0;
+    let in_rings = structure.open() && free == 0 && !description.rings.is_empty();
     let mut pairs = Pairs::default();
-    let cyclic = if alone { cyclic::pairs_into(linear, description, &mut pairs) } else { None };
+    let cyclic = if in_rings { cyclic::pairs_into(linear, description, &mut pairs) } else { None };
     let solved = cyclic.unwrap_or_else(|| constrained::free_pairs_into(linear, (structure, free), &mut pairs));
     solved.map_err(ModesFailure::Pencil)?;
     let Pairs { lambda, shapes, residuals, errors } = &pairs;
     let (lambda, residuals, errors) = (&lambda[..], &residuals[..], &errors[..]);
     let count = lambda.len();
-    modes.reserve_exact(count.saturating_sub(modes.len()));
-    modes.resize_with(count, Mode::blank);
+    if modes.len() != count {
+        modes.reserve_exact(count.saturating_sub(modes.len()));
+        modes.resize_with(count, Mode::blank);
+    }
     for_size(
         shapes.column_count(),
         #[inline(always)]
         |n| {
             let shapes = shapes.as_flattened().chunks_exact(n.max(1));
             for (r, (mode, from)) in modes.iter_mut().zip(shapes).enumerate() {
-                let shape = mode.make_undamped(r, (lambda[r], errors[r].max(floor)), residuals[r], n);
+                let shape = mode.make_undamped(r, (lambda[r], greater(floor, errors[r])), residuals[r], n);
                 for (to, from) in shape[..n].iter_mut().zip(&from[..n]) {
                     *to = Complex::from(*from);
                 }

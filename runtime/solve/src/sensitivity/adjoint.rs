@@ -87,11 +87,10 @@ impl<'a> Adjoint<'a> {
         match (modes.family, matrices, residual) {
             (Family::Undamped, Some(matrices), Some((by_input, by_design))) => {
                 let [of_coordinates, of_inputs, of_design] = matrices.lists();
-                let by_input = (of_inputs, by_input.as_flattened());
-                let by_design = (of_design, by_design.as_flattened());
+                let of_others = [(of_inputs, by_input.as_flattened()), (of_design, by_design.as_flattened())];
                 assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
                     let to = sensitivity.make_undamped(mode, u.len(), b.len());
-                    factors.undamped_from_partials((of_coordinates, [by_input, by_design]), mode, to);
+                    factors.undamped_from_partials((of_coordinates, &of_others), mode, to);
                 })
             }
             (Family::Undamped, ..) => {
@@ -221,7 +220,7 @@ impl Factors {
     /// coordinates, then of matrices and residual by each.
     fn undamped_from_partials(
         &self,
-        (by_coordinate, partials): (&[f64], [(&[f64], &[f64]); 2]),
+        (by_coordinate, partials): (&[f64], &[(&[f64], &[f64]); 2]),
         mode: &Mode,
         to: [&mut [f64]; 2],
     ) {
@@ -236,7 +235,7 @@ impl Factors {
                     *w = form.rate(change);
                 }
                 self.solve(n, w);
-                for ((matrices, residual), to) in partials.into_iter().zip(to) {
+                for ((matrices, residual), to) in partials.iter().zip(to) {
                     total_rates(&form, matrices, (w, residual), to);
                 }
             },

@@ -24,6 +24,7 @@ pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, E
 }
 
 /// Like [`free_pairs`], overwriting existing pairs.
+#[inline(always)]
 pub(crate) fn free_pairs_into(
     linear: &Linear,
     (structure, free): (Structure, usize),
