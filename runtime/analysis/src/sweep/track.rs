@@ -422,10 +422,11 @@ impl<'a> Tracker<'a> {
             self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));
         }
-        if let Some(Ok(modes)) = self.last.as_ref().map(|last| &last.modes) {
-            if stay_in_place(modes, point_modes, &state.linear, RECOGNISED) {
-                point_modes.continue_in_place(modes);
-            } else {
+        let before = self.last.as_ref().and_then(|last| last.modes.as_ref().ok());
+        if let Some(modes) = before.filter(|modes| stay_in_place(modes, point_modes, &state.linear, RECOGNISED)) {
+            point_modes.continue_in_place(modes);
+        } else {
+            if let Some(modes) = before {
                 let order = match_with_assurance(modes, point_modes, &state.linear);
                 // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
                 let repeated = |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
@@ -441,10 +442,10 @@ impl<'a> Tracker<'a> {
                 let order = order.map(position);
                 point_modes.arrange(modes, &order, self.unused);
             }
+            self.unused = point_modes.modes.iter().map(|mode| mode.label + 1).fold(self.unused, usize::max);
         }
         self.from.set(&state.coordinates, |value| *value);
         self.path.go(value, state.coordinates.iter().copied());
-        self.unused = point_modes.modes.iter().map(|mode| mode.label + 1).fold(self.unused, usize::max);
         self.spare = self.last.replace(point);
         Ok(Step::Arrived)
     }

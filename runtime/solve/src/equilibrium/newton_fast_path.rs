@@ -17,7 +17,7 @@ use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
 use super::descent::{GROWTH, LineModel, SearchState};
 use super::operating_point::OperatingPoint;
 use crate::algebra::{
-    Cholesky, Matrix, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows, unless_finite,
+    Cholesky, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows, unless_finite,
 };
 use crate::kernels::RestParts;
 
@@ -28,7 +28,7 @@ const MAX_ITERATIONS: usize = 8;
 /// convex. For mechanisms without constraints.
 ///
 /// Overwrites `state` except for its stability, and returns whether it is solved; otherwise `progress` is the last convex
-/// state.
+/// state, and what `state` holds is unspecified.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
     progress: &mut SearchState,
@@ -54,12 +54,11 @@ fn newton(
         point.mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
     let (q, most) = (&mut q[..n], *iterations + MAX_ITERATIONS);
-    let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
-    let mut factors = Cholesky::default();
-    let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
-    let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
-    let stiffness = &mut stiffness.as_flattened_mut()[..n * n];
-    let (lower, pivots) = factors.room(n);
+    let Equilibrium { coordinates, residual, linear, .. } = &mut *state;
+    let (next, residual) = (&mut coordinates[..n], &mut residual[..n]);
+    let stiffness = &mut linear.stiffness.as_flattened_mut()[..n * n];
+    let (mut factors, mut step) = (Cholesky::default(), Vector::zeros(n));
+    let ((lower, pivots), step) = (factors.room(n), &mut step[..n]);
     evaluate(q, residual, stiffness);
     while *iterations < most {
         if factor_rows(n, stiffness, lower, pivots).is_err() {
@@ -75,12 +74,13 @@ fn newton(
             if !taken {
                 step.fill(0.0);
             }
-            state.iterations = *iterations + usize::from(taken);
-            state.left_unstable_region = false;
-            for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
+            for ((end, q), step) in next.iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
-            return ends(n, point, residual, (lower, pivots), state);
+            let before = largest(residual);
+            state.iterations = *iterations + usize::from(taken);
+            state.left_unstable_region = false;
+            return ends(n, point, before, (lower, pivots), state);
         }
         let size = largest(step);
         let limited = size > *radius;
@@ -113,14 +113,14 @@ fn newton(
     false
 }
 
-/// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the remainder of
-/// `residual`, the value before the step, has fallen to a small share or to rounding, as
+/// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the residual has
+/// fallen to a small share of its size `before` the step or to rounding, as
 /// [`last_step`](super::acceptance::last_step) requires.
 #[inline(always)]
 fn ends(
     n: usize,
     point: &OperatingPoint<'_>,
-    before: &[f64],
+    before: f64,
     (lower, pivots): (&[f64], &[f64]),
     state: &mut Equilibrium,
 ) -> bool {
@@ -139,7 +139,7 @@ fn ends(
     let forces = [&parts.inertia[..], &parts.applied];
     let stiffness = linear.stiffness.as_flattened();
     state.relative_residual = relative_of((n, n), forces, q, residual, stiffness);
-    let fell = largest(residual) <= 1e-3 * largest(before) || {
+    let fell = largest(residual) <= 1e-3 * before || {
         let mut displacement = Vector::from(&*residual);
         solve_rows(n, lower, pivots, &mut displacement);
         is_rounding(&displacement[..n], q, n)

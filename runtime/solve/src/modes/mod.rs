@@ -351,6 +351,7 @@ impl Modes {
     /// Overwrites this set with the modes of these matrices, reusing its vectors. There are `free` directions that lead
     /// to neighbouring steady motions, and a `lambda` not beyond `floor` counts as zero. For damped modes of an open
     /// mechanism, passing all modes of a nearby one saves time.
+    #[inline]
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,

@@ -80,26 +80,26 @@ impl<'a> Adjoint<'a> {
             }
             Source::Reverse => (None, None),
         };
+        if let (Family::Undamped, Some(matrices), Some((by_input, by_design))) = (modes.family, matrices, residual) {
+            let [of_coordinates, of_inputs, of_design] = matrices.lists();
+            let of_others = [(of_inputs, by_input.as_flattened()), (of_design, by_design.as_flattened())];
+            return assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
+                let to = sensitivity.make_undamped(mode, u.len(), b.len());
+                factors.undamped_from_partials((of_coordinates, &of_others), mode, to);
+            });
+        }
         let zeros = || Gradient::zeros(mechanism.sizes());
         let shafts = ShaftSlopes::of(*mechanism, at)?;
         let shafts = shafts.as_deref().map(|own| (own, own.of_modes(&modes.modes)));
         let shared = AdjointContext { mechanism: *mechanism, at, factors, residual, shafts };
-        match (modes.family, matrices, residual) {
-            (Family::Undamped, Some(matrices), Some((by_input, by_design))) => {
-                let [of_coordinates, of_inputs, of_design] = matrices.lists();
-                let of_others = [(of_inputs, by_input.as_flattened()), (of_design, by_design.as_flattened())];
-                assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
-                    let to = sensitivity.make_undamped(mode, u.len(), b.len());
-                    factors.undamped_from_partials((of_coordinates, &of_others), mode, to);
-                })
-            }
-            (Family::Undamped, ..) => {
+        match modes.family {
+            Family::Undamped => {
                 let (mut gradient, mut room) = (zeros(), zeros());
                 assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
                     shared.undamped(&mut gradient, &mut room, sensitivity, mode);
                 })
             }
-            (Family::General, ..) => {
+            Family::General => {
                 let (mut gradient, mut room) = ([zeros(), zeros()], [zeros(), zeros()]);
                 assemble_into(at, modes, sensitivities, |sensitivity, (position, mode)| {
                     shared.general(matrices, [&mut gradient, &mut room], sensitivity, (position, mode));
