@@ -293,7 +293,9 @@ impl<'a> Tracker<'a> {
     /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new
     /// point is [`Self::last`]; a point without modes is returned instead.
     pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
-        self.join(value);
+        if !self.route.is_empty() {
+            self.join(value);
+        }
         let (equilibrium, error) = match self.go(value) {
             Ok(None) => return None,
             Ok(Some((point, error))) => (point.equilibrium, error),

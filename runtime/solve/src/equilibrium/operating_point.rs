@@ -100,11 +100,13 @@ impl<'a> OperatingPoint<'a> {
     #[doc(hidden)]
     #[inline]
     pub fn asked(mut self, named: &'a [bool], held: Vec<Held>) -> Self {
-        let mut declared = declared(self.mechanism, self.inputs, self.design);
-        declared.retain(|declared| held.iter().all(|other| other.unknown != declared.unknown));
         self.named = named;
         self.held = held;
-        self.held.append(&mut declared);
+        if !self.description.held.is_empty() {
+            let mut declared = declared(self.mechanism, self.inputs, self.design);
+            declared.retain(|declared| self.held.iter().all(|other| other.unknown != declared.unknown));
+            self.held.append(&mut declared);
+        }
         self
     }
 

@@ -191,7 +191,7 @@ impl FreeDirections {
 
     /// Adds what a change of held values contributes to the derivatives of the residual.
     #[doc(hidden)]
-    #[inline]
+    #[inline(always)]
     pub fn add_to_partials(&self, (by_input, by_design): &mut (Matrix, Matrix)) {
         for (held, column) in self.held.iter().zip(&self.columns) {
             for (i, amount) in column.iter().enumerate() {

@@ -57,25 +57,25 @@ fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
 #[must_use]
 pub fn stay_in_place(from: &Modes, to: &Modes, linear: &Linear, least: f64) -> bool {
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
-    undamped
-        && from.modes.len() == to.modes.len()
-        && assurance_in_place(from, to, &linear.mass).iter().all(|assurance| *assurance >= least)
+    let mut stay = undamped && from.modes.len() == to.modes.len();
+    if stay {
+        each_in_place(from, to, &linear.mass, |assurance| stay &= assurance >= least);
+    }
+    stay
 }
 
-/// The assurance of undamped modes in the same place.
-fn assurance_in_place(from: &Modes, to: &Modes, mass: &Matrix) -> Vector {
-    let (from, to) = (&from.modes[..], &to.modes[..]);
-    let mut assurance = Vector::zeros(from.len().min(to.len()));
+/// Passes on the assurance of each pair of undamped modes in the same place.
+#[inline(always)]
+fn each_in_place(from: &Modes, to: &Modes, mass: &Matrix, mut each: impl FnMut(f64)) {
     for_size(
         mass.row_count(),
         #[inline(always)]
         |n| {
-            for (assurance, (x, y)) in assurance.iter_mut().zip(from.iter().zip(to)) {
-                *assurance = real_assurance(n, x, y, mass);
+            for (x, y) in from.modes.iter().zip(&to.modes) {
+                each(real_assurance(n, x, y, mass));
             }
         },
     );
-    assurance
 }
 
 /// The assurance of two undamped modes of `n` components; see [`for_size`].
@@ -128,8 +128,12 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
     // one half.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
-        let assurances = assurance_in_place(from, to, &linear.mass);
-        let matched: Vector<_> = assurances.iter().copied().enumerate().map(Some).collect();
+        let (mut matched, mut places) = (Vector::filled(here, None), 0..);
+        each_in_place(from, to, &linear.mass, |assurance| {
+            if let Some(place) = places.next() {
+                matched[place] = Some((place, assurance));
+            }
+        });
         if matched.iter().flatten().all(|&(_, same)| same > CERTAIN) {
             return matched;
         }

@@ -350,7 +350,9 @@ const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;
 fn covariance_factor(sigmas: &[f64], correlation: Option<&Matrix>) -> Result<Matrix, Error> {
     let size = sigmas.len();
     let Some(matrix) = correlation else {
-        return Ok(Matrix::from_fn(size, size, |i, j| if i == j { sigmas[i] } else { 0.0 }));
+        let mut factor = Matrix::zeros(size, size);
+        factor.iter_mut().zip(sigmas).enumerate().for_each(|(i, (row, sigma))| row[i] = *sigma);
+        return Ok(factor);
     };
     let found = (matrix.row_count(), matrix.column_count());
     if found != (size, size) {
