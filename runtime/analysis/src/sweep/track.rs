@@ -328,23 +328,22 @@ impl<'a> Tracker<'a> {
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
         loop {
-            match self.step(next, halvings) {
-                Ok(step) => match (step, after.pop()) {
-                    (Step::TooFar(middle), pending) => {
-                        after.extend(pending);
-                        halvings -= 1;
-                        after.push((next, halvings));
-                        next = middle;
-                    }
-                    (_, Some(pending)) => (next, halvings) = pending,
-                    (Step::WithoutModes(point, error), None) => return Ok(Some((point, error))),
-                    (Step::Arrived, None) => return Ok(None),
-                },
-                Err(error) => match after.pop() {
-                    None => return Err(error),
-                    // Accept this value, doubtful or not.
-                    Some((target, _)) => (next, halvings) = (target, 0),
-                },
+            let reached = match self.step(next, halvings) {
+                Ok(Step::TooFar(middle)) => {
+                    halvings -= 1;
+                    after.push((next, halvings));
+                    next = middle;
+                    continue;
+                }
+                Ok(Step::Arrived) => Ok(None),
+                Ok(Step::WithoutModes(point, error)) => Ok(Some((point, error))),
+                Err(error) => Err(error),
+            };
+            match after.pop() {
+                None => return reached,
+                Some(pending) if reached.is_ok() => (next, halvings) = pending,
+                // Accept this value, doubtful or not.
+                Some((target, _)) => (next, halvings) = (target, 0),
             }
         }
     }

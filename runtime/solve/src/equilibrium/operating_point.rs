@@ -95,11 +95,11 @@ impl<'a> OperatingPoint<'a> {
         }
     }
 
-    /// This point with the unknowns whose start values are given, and those by which a member of a family is to be held.
+    /// Gives this point the unknowns whose start values are given, and those by which a member of a family is to be held.
     /// Unknowns with declared values follow, unless they are held at another one.
     #[doc(hidden)]
     #[inline]
-    pub fn asked(mut self, named: &'a [bool], held: Vec<Held>) -> Self {
+    pub fn ask(&mut self, named: &'a [bool], held: Vec<Held>) {
         self.named = named;
         self.held = held;
         if !self.description.held.is_empty() {
@@ -107,7 +107,6 @@ impl<'a> OperatingPoint<'a> {
             declared.retain(|declared| self.held.iter().all(|other| other.unknown != declared.unknown));
             self.held.append(&mut declared);
         }
-        self
     }
 
     /// This point, held as a steady motion of another design is: declared values are those of this design.
@@ -125,12 +124,13 @@ impl<'a> OperatingPoint<'a> {
     /// This point held by these unknowns and by those with declared values.
     #[doc(hidden)]
     #[inline]
-    pub fn held_by(self, held: &[Held]) -> Self {
+    pub fn held_by(mut self, held: &[Held]) -> Self {
         if held.is_empty() && self.description.held.is_empty() {
             return self;
         }
         let held = self.at_declared_values(held);
-        self.asked(&[], held)
+        self.ask(&[], held);
+        self
     }
 
     /// Whether it is held as a member of a family of steady motions.

@@ -11,7 +11,7 @@ use crate::{Behaviour, Complex, Modes};
 /// Largest share of the assurance that a difference of eigenvalues can remove: it decides between modes of equal shape.
 pub const EIGENVALUE_SHARE: f64 = 0.05;
 /// Above this assurance a mode is recognised without looking at the other modes of its set.
-const CERTAIN: f64 = 0.6;
+pub const CERTAIN: f64 = 0.6;
 
 /// Similarity, from 0 to 1, of mode `i` of `from` to mode `j` of `to`: `table[i][j]`.
 ///

@@ -58,8 +58,8 @@ impl Tolerances {
     pub fn declared(description: &Description) -> Result<Self, Error> {
         let infos = &description.design;
         let normal = infos.iter().map(|info| info.tolerance.normal_half_width(info.nominal));
-        if normal.clone().all(|half_width| half_width.is_some()) {
-            return Self::new(normal.flatten().collect::<Vector>(), 3.0, None);
+        if let Some(half_widths) = normal.collect::<Option<Vector>>() {
+            return Self::new(half_widths, 3.0, None);
         }
         let nominal: Vector = infos.iter().map(|info| info.nominal).collect();
         let laws = infos.iter().map(|info| distribution(info.nominal, &info.tolerance, 3.0));
