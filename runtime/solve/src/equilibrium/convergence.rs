@@ -130,9 +130,9 @@ pub(crate) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bo
 fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     let reaction = largest_of(&q[motions..]);
     let mut within = true;
-    for j in 0..q.len() {
+    for (j, (step, q)) in step.iter().zip(q).enumerate() {
         let unit = if j < motions { 1.0 } else { reaction };
-        within &= step[j].abs() <= tolerance * (q[j].abs() + SMALL_MOTION * unit);
+        within &= step.abs() <= tolerance * (q.abs() + SMALL_MOTION * unit);
     }
     within
 }

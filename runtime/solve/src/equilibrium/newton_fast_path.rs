@@ -128,15 +128,13 @@ fn ends(
     let (q, linear) = (&state.coordinates[..n], &mut state.linear);
     let mut parts = RestParts::zeros(n);
     point.mechanism.parts_and_linear_into(q, u, b, &mut parts, linear);
-    let residual = &mut state.residual[..n];
-    let both = parts.inertia[..n].iter().zip(&parts.applied[..n]);
-    for (rest, (inertia, applied)) in residual.iter_mut().zip(both) {
+    let (residual, forces) = (&mut state.residual[..n], [&parts.inertia[..n], &parts.applied[..n]]);
+    for (rest, (inertia, applied)) in residual.iter_mut().zip(forces[0].iter().zip(forces[1])) {
         *rest = inertia + -1.0 * applied;
     }
     if !(all_finite(residual) && point.infinite(n, linear).is_none()) {
         return false;
     }
-    let forces = [&parts.inertia[..], &parts.applied];
     let stiffness = linear.stiffness.as_flattened();
     state.relative_residual = relative_of((n, n), forces, q, residual, stiffness);
     let fell = largest(residual) <= 1e-3 * before || {

@@ -257,7 +257,7 @@ const NAMED: f64 = 1e-8;
 /// The minimum that the fast path finds from `progress`.
 fn straight(point: &OperatingPoint<'_>, mut progress: descent::SearchState) -> Option<UnjudgedResult> {
     let mut state = point.blank_state();
-    newton_fast_path::newton_fast_path(point, &mut progress, &mut state).then(|| UnjudgedResult {
+    newton_fast_path::newton_fast_path(point, &mut progress, &mut state).then_some(UnjudgedResult {
         coordinates: state.coordinates,
         residual: state.residual,
         measured: Some(Measured { linear: state.linear, relative_residual: state.relative_residual }),

@@ -83,9 +83,10 @@ impl<'a> Adjoint<'a> {
         if let (Family::Undamped, Some(matrices), Some((by_input, by_design))) = (modes.family, matrices, residual) {
             let [of_coordinates, of_inputs, of_design] = matrices.lists();
             let of_others = [(of_inputs, by_input.as_flattened()), (of_design, by_design.as_flattened())];
+            let (inputs, design) = (u.len(), b.len());
             return assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
-                let to = sensitivity.make_undamped(mode, u.len(), b.len());
-                factors.undamped_from_partials((of_coordinates, &of_others), mode, to);
+                let to = sensitivity.make_undamped(mode, inputs, design);
+                factors.undamped_from_partials(of_coordinates, &of_others, mode, to);
             });
         }
         let zeros = || Gradient::zeros(mechanism.sizes());
@@ -220,7 +221,8 @@ impl Factors {
     /// coordinates, then of matrices and residual by each.
     fn undamped_from_partials(
         &self,
-        (by_coordinate, partials): (&[f64], &[(&[f64], &[f64]); 2]),
+        by_coordinate: &[f64],
+        by_others: &[(&[f64], &[f64]); 2],
         mode: &Mode,
         to: [&mut [f64]; 2],
     ) {
@@ -235,7 +237,7 @@ impl Factors {
                     *w = form.rate(change);
                 }
                 self.solve(n, w);
-                for ((matrices, residual), to) in partials.iter().zip(to) {
+                for ((matrices, residual), to) in by_others.iter().zip(to) {
                     total_rates(&form, matrices, (w, residual), to);
                 }
             },
