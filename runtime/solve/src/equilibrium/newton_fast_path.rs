@@ -16,9 +16,7 @@ use super::Equilibrium;
 use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
 use super::descent::{GROWTH, LineModel, SearchState};
 use super::operating_point::OperatingPoint;
-use crate::algebra::{
-    Cholesky, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows, unless_finite,
-};
+use crate::algebra::{Cholesky, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows, unless_finite};
 use crate::kernels::RestParts;
 
 /// Newton's method doubles the digits: a start in the valley needs few steps.

@@ -26,7 +26,8 @@ mod whirl;
 
 #[doc(hidden)]
 pub use assurance::{
-    CERTAIN, EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position, stay_in_place,
+    CERTAIN, EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position,
+    stay_in_place,
 };
 pub use assurance::{assurance, clusters, match_modes};
 pub use blades::{BladePattern, Travel, ring_speeds};
