@@ -173,10 +173,13 @@ pub struct ShaftSlopes {
 
 impl ShaftSlopes {
     #[doc(hidden)]
+    #[inline]
     pub fn of(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<Option<Box<Self>>, Error> {
-        if at.description.spans.is_empty() {
-            return Ok(None);
-        }
+        if at.description.spans.is_empty() { Ok(None) } else { Self::with_slopes(mechanism, at) }
+    }
+
+    #[cold]
+    fn with_slopes(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<Option<Box<Self>>, Error> {
         let with_slopes = |shafts| Box::new(Self { shafts, slopes: number_slopes(mechanism, at) });
         Ok(Shafts::of(at)?.map(with_slopes))
     }

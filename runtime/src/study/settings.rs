@@ -277,8 +277,7 @@ impl Settings {
         let all = self.design_variations.iter().zip(&self.design).chain(inputs);
         let (level, correlation) = (self.sigma_level, self.correlation());
         let normal = (all.clone()).map(|(x, value)| x.normal_half_width(*value));
-        if normal.clone().all(|half_width| half_width.is_some()) {
-            let half_widths: Vector = normal.flatten().collect();
+        if let Some(half_widths) = normal.collect::<Option<Vector>>() {
             return Tolerances::new(half_widths, level, correlation);
         }
         let values = (all.clone()).map(|(x, value)| x.distribution(*value, level));
@@ -401,7 +400,8 @@ impl Settings {
         let (start, named) = self.beginning(mechanism);
         let start = self.assembled(mechanism, start, &named)?;
         let (u, b) = (&self.inputs, &self.design);
-        let point = OperatingPoint::unchecked(mechanism, u, b).asked(&named, self.holds.clone());
+        let mut point = OperatingPoint::unchecked(mechanism, u, b);
+        point.ask(&named, self.holds.clone());
         let mut state = Box::new(Equilibrium::blank(&self.description, u, b));
         let judged = equilibrium::equilibrium_into(&point, &start, self.policy, &mut state)?;
         state.kept = self.policy == Policy::Nearest;

@@ -66,6 +66,7 @@ pub(crate) struct Tracker<'a> {
     pub(crate) mechanism: &'a dyn Kernels,
     pub(crate) description: Shared<Description>,
     pub(crate) input: Input,
+    /// The inputs at the value sought last.
     inputs: Vector,
     design: Vector,
     policy: Policy,
@@ -144,16 +145,14 @@ impl<'a> Tracker<'a> {
         self.family
     }
 
-    /// All inputs when the varied one has this value.
-    pub(super) fn inputs_at(&self, value: f64) -> Vector {
-        let mut inputs = self.inputs.clone();
-        if let Some(input) = inputs.get_mut(self.input.index()) {
+    /// Gives the varied input this value.
+    fn vary(&mut self, value: f64) {
+        if let Some(input) = self.inputs.get_mut(self.input.index()) {
             *input = value;
         }
-        inputs
     }
 
-    /// Solves the equilibrium at a value of the input into `state`, starting from the prediction if that converges at
+    /// Solves the equilibrium at this value of the input into `state`, starting from the prediction if that converges at
     /// once, otherwise from `from`. Returns its general modes if they were needed to judge its stability.
     fn equilibrium_into(
         &self,
@@ -162,11 +161,22 @@ impl<'a> Tracker<'a> {
         predicted: Option<&[f64]>,
         state: &mut Equilibrium,
     ) -> Result<Vec<Mode>, Error> {
-        let inputs = self.inputs_at(value);
-        let point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
-        let point = point.held_by(&self.held).only(self.needed).beside(self.followed.modes());
-        point.check_start(from)?;
-        state.inputs.clone_from(&inputs);
+        let mut point = OperatingPoint::unchecked(self.mechanism, &self.inputs, &self.design);
+        // Behind a first point, only the input is new.
+        if self.last.is_some() && value.is_finite() {
+            point.check_possible()?;
+        } else {
+            point.check_values()?;
+            point.check_start(from)?;
+        }
+        if !self.is_alone() {
+            point = point.held_by(&self.held);
+        }
+        point.needed = self.needed;
+        if !self.description.spans.is_empty() {
+            point.nearby = self.followed.modes();
+        }
+        state.inputs.set(&self.inputs, |value| *value);
         let predicted = predicted.filter(|_| policy == Policy::Stable && !point.of_family());
         if let Some(modes) = predicted.and_then(|to| solve_from_prediction(&point, from, to, state)) {
             return Ok(modes);
@@ -283,7 +293,9 @@ impl<'a> Tracker<'a> {
     /// Advances to a value of the input; modes that are not recognised at once are followed in smaller steps. The new
     /// point is [`Self::last`]; a point without modes is returned instead.
     pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
-        self.join(value);
+        if !self.route.is_empty() {
+            self.join(value);
+        }
         let (equilibrium, error) = match self.go(value) {
             Ok(None) => return None,
             Ok(Some((point, error))) => (point.equilibrium, error),
@@ -319,23 +331,22 @@ impl<'a> Tracker<'a> {
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
         loop {
-            match self.step(next, halvings) {
-                Ok(step) => match (step, after.pop()) {
-                    (Step::TooFar(middle), pending) => {
-                        after.extend(pending);
-                        halvings -= 1;
-                        after.push((next, halvings));
-                        next = middle;
-                    }
-                    (_, Some(pending)) => (next, halvings) = pending,
-                    (Step::WithoutModes(point, error), None) => return Ok(Some((point, error))),
-                    (Step::Arrived, None) => return Ok(None),
-                },
-                Err(error) => match after.pop() {
-                    None => return Err(error),
-                    // Accept this value, doubtful or not.
-                    Some((target, _)) => (next, halvings) = (target, 0),
-                },
+            let reached = match self.step(next, halvings) {
+                Ok(Step::TooFar(middle)) => {
+                    halvings -= 1;
+                    after.push((next, halvings));
+                    next = middle;
+                    continue;
+                }
+                Ok(Step::Arrived) => Ok(None),
+                Ok(Step::WithoutModes(point, error)) => Ok(Some((point, error))),
+                Err(error) => Err(error),
+            };
+            match after.pop() {
+                None => return reached,
+                Some(pending) if reached.is_ok() => (next, halvings) = pending,
+                // Accept this value, doubtful or not.
+                Some((target, _)) => (next, halvings) = (target, 0),
             }
         }
     }
@@ -349,20 +360,19 @@ impl<'a> Tracker<'a> {
     /// this value as well. The first value that does change them ends the question. Members of families are chosen by values
     /// beside the equations.
     fn stays(&mut self, value: f64) -> Result<bool, Error> {
-        let inputs = self.inputs_at(value);
         let moves = self.changes || !self.is_alone();
         let (false, Some(Ok((state, modes)))) = (moves, self.last.as_mut().map(|last| last.solved_mut())) else {
             return Ok(false);
         };
         let at = |u: &[f64]| self.mechanism.parts_and_linear(&state.coordinates, u, &self.design);
         let before = self.unchanged.take().unwrap_or_else(|| at(&state.inputs));
-        if at(&inputs) != before {
+        if at(&self.inputs) != before {
             self.changes = true;
             return Ok(false);
         }
-        OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
+        OperatingPoint::new(self.mechanism, &self.inputs, &self.design)?;
         self.unchanged = Some(before);
-        (state.inputs, modes.inputs) = (inputs.clone(), inputs);
+        (state.inputs, modes.inputs) = (self.inputs.clone(), self.inputs.clone());
         self.path.go(value, state.coordinates.iter().copied());
         if let Some(last) = &mut self.last {
             last.value = value;
@@ -377,7 +387,10 @@ impl<'a> Tracker<'a> {
         ((middle - last) * (value - middle) > 0.0).then_some(middle)
     }
 
+    // As a function of its own, it leaves its long result where it is.
+    #[inline(never)]
     fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
+        self.vary(value);
         if self.stays(value)? {
             return Ok(Step::Arrived);
         }
@@ -397,13 +410,13 @@ impl<'a> Tracker<'a> {
             self.followed.take(value, &judged);
         }
         // Without modes to recognise, a state that is not where the path leads may be on another branch.
-        let astray = match &predicted {
+        let astray = || match &predicted {
             Some(predicted) => !confirmed(&state.coordinates, predicted, &self.from),
             None => self.path.is_far(value),
         };
         if self.needed < Needed::Modes
             && halvings > 0
-            && astray
+            && astray()
             && let Some(middle) = self.middle(value)
         {
             self.spare = Some(point);
@@ -416,10 +429,11 @@ impl<'a> Tracker<'a> {
             self.path.go(value, state.coordinates.iter().copied());
             return Ok(Step::WithoutModes(point, error));
         }
-        if let Some(Ok(modes)) = self.last.as_ref().map(|last| &last.modes) {
-            if stay_in_place(modes, point_modes, &state.linear, RECOGNISED) {
-                point_modes.continue_in_place(modes);
-            } else {
+        let before = self.last.as_ref().and_then(|last| last.modes.as_ref().ok());
+        if let Some(modes) = before.filter(|modes| stay_in_place(modes, point_modes, &state.linear, RECOGNISED)) {
+            point_modes.continue_in_place(modes);
+        } else {
+            if let Some(modes) = before {
                 let order = match_with_assurance(modes, point_modes, &state.linear);
                 // Modes with equal eigenvalues have no unique shapes: no step is small enough to recognise them.
                 let repeated = |r: usize| merged(point_modes, r) || near_another(point_modes, r, CLUSTER_GAP);
@@ -435,10 +449,10 @@ impl<'a> Tracker<'a> {
                 let order = order.map(position);
                 point_modes.arrange(modes, &order, self.unused);
             }
+            self.unused = point_modes.modes.iter().map(|mode| mode.label + 1).fold(self.unused, usize::max);
         }
-        self.from.clone_from(&state.coordinates);
+        self.from.set(&state.coordinates, |value| *value);
         self.path.go(value, state.coordinates.iter().copied());
-        self.unused = point_modes.modes.iter().map(|mode| mode.label + 1).fold(self.unused, usize::max);
         self.spare = self.last.replace(point);
         Ok(Step::Arrived)
     }

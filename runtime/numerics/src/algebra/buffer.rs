@@ -2,20 +2,53 @@
 
 use core::ops::{Deref, DerefMut};
 
+/// A count that its type limits to the length of an array: slices of so many entries need no check.
+pub(super) trait Count: Copy {
+    /// A count, or the limit if that is lower.
+    fn limited(count: usize) -> Self;
+    fn get(self) -> usize;
+}
+
+macro_rules! count {
+    ($name:ident: $($number:literal $variant:ident,)* $most:ident) => {
+        #[derive(Clone, Copy)]
+        #[repr(usize)]
+        pub(super) enum $name { $($variant,)* $most }
+
+        impl Count for $name {
+            #[inline(always)]
+            fn limited(count: usize) -> Self {
+                match count {
+                    $($number => Self::$variant,)*
+                    _ => Self::$most,
+                }
+            }
+
+            #[inline(always)]
+            fn get(self) -> usize {
+                self as usize
+            }
+        }
+    };
+}
+
+count!(UpTo8: 0 N0, 1 N1, 2 N2, 3 N3, 4 N4, 5 N5, 6 N6, 7 N7, N8);
+count!(UpTo16: 0 N0, 1 N1, 2 N2, 3 N3, 4 N4, 5 N5, 6 N6, 7 N7, 8 N8, 9 N9, 10 N10, 11 N11, 12 N12, 13 N13, 14 N14, 15 N15, N16);
+
 /// Dereferences to a slice.
 #[derive(Clone)]
-pub(super) enum Buffer<T, const FEW: usize> {
+pub(super) enum Buffer<T, C, const FEW: usize> {
     /// The count, and an array of which entries beyond the count are never read. It is copied whole: a copy of known
     /// size takes a few instructions.
-    Few(usize, [T; FEW]),
+    Few(C, [T; FEW]),
     Many(Vec<T>),
 }
 
-impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
+impl<T: Copy + Default, C: Count, const FEW: usize> Buffer<T, C, FEW> {
     /// `count` copies of `value`.
     #[inline]
     pub(super) fn filled(count: usize, value: T) -> Self {
-        if count <= FEW { Self::Few(count, [value; FEW]) } else { Self::Many(vec![value; count]) }
+        if count <= FEW { Self::Few(C::limited(count), [value; FEW]) } else { Self::Many(vec![value; count]) }
     }
 
     #[inline]
@@ -25,7 +58,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
             for (slot, value) in few.iter_mut().zip(values) {
                 *slot = *value;
             }
-            Self::Few(values.len(), few)
+            Self::Few(C::limited(values.len()), few)
         } else {
             Self::Many(values.to_vec())
         }
@@ -39,7 +72,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
             for (k, slot) in few.iter_mut().enumerate().take(count) {
                 *slot = value(k);
             }
-            Self::Few(count, few)
+            Self::Few(C::limited(count), few)
         } else {
             Self::Many((0..count).map(value).collect())
         }
@@ -49,7 +82,7 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     #[inline(always)]
     pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
         match self {
-            Self::Few(length, _) if count <= FEW => *length = count,
+            Self::Few(length, _) if count <= FEW => *length = C::limited(count),
             Self::Many(many) if many.len() == count => {}
             _ => self.renew(count),
         }
@@ -85,29 +118,29 @@ fn fill<T>(places: &mut [T], values: impl Iterator<Item = T>) -> usize {
     written
 }
 
-impl<T: Copy + Default, const FEW: usize> FromIterator<T> for Buffer<T, FEW> {
+impl<T: Copy + Default, C: Count, const FEW: usize> FromIterator<T> for Buffer<T, C, FEW> {
     #[inline]
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
         let values = values.into_iter();
         if at_most(&values, FEW) {
             let mut few = [T::default(); FEW];
             let count = fill(&mut few, values);
-            return Self::Few(count, few);
+            return Self::Few(C::limited(count), few);
         }
         let values: Vec<T> = values.collect();
         if values.len() <= FEW { Self::from_slice(&values) } else { Self::Many(values) }
     }
 }
 
-impl<T, const FEW: usize> From<Vec<T>> for Buffer<T, FEW> {
+impl<T, C, const FEW: usize> From<Vec<T>> for Buffer<T, C, FEW> {
     #[inline]
     fn from(values: Vec<T>) -> Self {
         Self::Many(values)
     }
 }
 
-impl<T: Copy, const FEW: usize> From<Buffer<T, FEW>> for Vec<T> {
-    fn from(buffer: Buffer<T, FEW>) -> Self {
+impl<T: Copy, C: Count, const FEW: usize> From<Buffer<T, C, FEW>> for Vec<T> {
+    fn from(buffer: Buffer<T, C, FEW>) -> Self {
         match buffer {
             Buffer::Few(..) => buffer.to_vec(),
             Buffer::Many(many) => many,
@@ -115,30 +148,30 @@ impl<T: Copy, const FEW: usize> From<Buffer<T, FEW>> for Vec<T> {
     }
 }
 
-impl<T: Copy + Default, const FEW: usize> Default for Buffer<T, FEW> {
+impl<T: Copy + Default, C: Count, const FEW: usize> Default for Buffer<T, C, FEW> {
     #[inline]
     fn default() -> Self {
         Self::filled(0, T::default())
     }
 }
 
-impl<T, const FEW: usize> Deref for Buffer<T, FEW> {
+impl<T, C: Count, const FEW: usize> Deref for Buffer<T, C, FEW> {
     type Target = [T];
 
     #[inline(always)]
     fn deref(&self) -> &[T] {
         match self {
-            Self::Few(count, few) => &few[..*count],
+            Self::Few(count, few) => &few[..count.get()],
             Self::Many(many) => many,
         }
     }
 }
 
-impl<T, const FEW: usize> DerefMut for Buffer<T, FEW> {
+impl<T, C: Count, const FEW: usize> DerefMut for Buffer<T, C, FEW> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
         match self {
-            Self::Few(count, few) => &mut few[..*count],
+            Self::Few(count, few) => &mut few[..count.get()],
             Self::Many(many) => many,
         }
     }

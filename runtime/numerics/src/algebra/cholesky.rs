@@ -28,15 +28,11 @@ impl Cholesky {
         for_size(
             matrix.row_count(),
             #[inline(always)]
-            |n| self.factor_of(n, matrix),
+            |n| {
+                let (lower, pivots) = self.room(n);
+                factor_rows(n, matrix.as_flattened(), lower, pivots)
+            },
         )
-    }
-
-    /// Like [`Self::factor`], for a matrix of size `n`; see [`for_size`].
-    #[inline(always)]
-    pub fn factor_of(&mut self, n: usize, matrix: &Matrix) -> Result<(), usize> {
-        let (lower, pivots) = self.room(n);
-        factor_rows(n, matrix.as_flattened(), lower, pivots)
     }
 
     /// Makes room for the entries of `L`, row by row, and for the pivots; the contents are unspecified.
@@ -93,7 +89,7 @@ impl Cholesky {
     }
 }
 
-/// [`Cholesky::factor_of`] for matrices given row by row.
+/// [`Cholesky::factor`] for matrices of size `n` given row by row; see [`for_size`].
 #[inline(always)]
 pub fn factor_rows(n: usize, matrix: &[f64], lower: &mut [f64], pivots: &mut [f64]) -> Result<(), usize> {
     let threshold = 8.0 * n as f64 * f64::EPSILON;

@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::{Index, IndexMut};
 use core::slice;
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, UpTo16};
 use super::for_size;
 use super::vector::{Vector, dot, greater, largest, unless_finite};
 use crate::Complex;
@@ -36,7 +36,7 @@ const FEW: usize = 16;
 pub struct Matrix<T = f64> {
     rows: usize,
     columns: usize,
-    entries: Buffer<T, FEW>,
+    entries: Buffer<T, UpTo16, FEW>,
 }
 
 impl<T: Copy + Default> Default for Matrix<T> {

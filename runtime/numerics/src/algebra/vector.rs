@@ -4,7 +4,7 @@ use core::ops::{Deref, DerefMut, Index, IndexMut, Range};
 use core::slice::SliceIndex;
 use core::{fmt, slice};
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, UpTo8};
 use crate::Complex;
 
 /// Number of entries stored in the vector itself.
@@ -13,7 +13,7 @@ const FEW: usize = 8;
 /// A list of numbers that dereferences to a slice. Converts to and from nalgebra as a [`Matrix`](crate::Matrix) does.
 #[derive(Clone)]
 pub struct Vector<T = f64> {
-    entries: Buffer<T, FEW>,
+    entries: Buffer<T, UpTo8, FEW>,
 }
 
 impl<T: Copy + Default> Default for Vector<T> {

@@ -19,16 +19,17 @@ pub struct Structure {
 impl Structure {
     #[doc(hidden)]
     pub fn of(description: &Description) -> Self {
-        let mut structure = Self { coordinates: 0, speeds: 0, position_constraints: 0, velocity_constraints: 0 };
+        let mut counts = [0; 4];
         for unknown in description.coordinates.iter() {
-            match unknown.role {
-                Role::Position => structure.coordinates += 1,
-                Role::Speed => structure.speeds += 1,
-                Role::PositionReaction => structure.position_constraints += 1,
-                Role::VelocityReaction => structure.velocity_constraints += 1,
-            }
+            counts[unknown.role as usize] += 1;
         }
-        structure
+        let count = |role: Role| counts[role as usize];
+        Self {
+            coordinates: count(Role::Position),
+            speeds: count(Role::Speed),
+            position_constraints: count(Role::PositionReaction),
+            velocity_constraints: count(Role::VelocityReaction),
+        }
     }
 
     /// Number of all unknowns.

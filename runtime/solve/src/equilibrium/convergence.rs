@@ -7,7 +7,7 @@
 
 use super::balance::residual_without_rounding;
 use super::operating_point::{OperatingPoint, gap_unit};
-use crate::algebra::{Matrix, Vector, for_size, greater, largest};
+use crate::algebra::{Matrix, Vector, for_size, greater, largest, unless_finite};
 use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
@@ -107,7 +107,7 @@ pub(crate) enum StepsLeft {
 }
 
 /// How many steps remain, judged from the next one at `q`.
-#[inline]
+#[inline(always)]
 pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> StepsLeft {
     if !within(LAST_STEP, step, q, motions) {
         StepsLeft::More
@@ -126,13 +126,15 @@ pub(crate) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bo
 
 /// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change
 /// of a reaction within `tolerance` of that reaction or of the largest one.
-#[inline]
+#[inline(always)]
 fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     let reaction = largest_of(&q[motions..]);
-    (0..q.len()).all(|j| {
+    let mut within = true;
+    for (j, (step, q)) in step.iter().zip(q).enumerate() {
         let unit = if j < motions { 1.0 } else { reaction };
-        step[j].abs() <= tolerance * (q[j].abs() + SMALL_MOTION * unit)
-    })
+        within &= step.abs() <= tolerance * (q.abs() + SMALL_MOTION * unit);
+    }
+    within
 }
 
 /// The largest residual, each relative to its own scale.
@@ -262,7 +264,7 @@ pub(crate) fn relative_of(
         let row = &stiffness[i * n..(i + 1) * n];
         let force = if i < motions { force(i, motions, [inertia, applied], q, reaction, row) } else { 0.0 };
         let scale = scale(force, &small[..motions], row);
-        let imbalance = if scale > 0.0 && scale < f64::INFINITY {
+        let imbalance = if scale > 0.0 && unless_finite(scale) == 0.0 {
             residual[i].abs() / scale
         } else {
             let force = if force.is_finite() { force } else { 0.0 };

@@ -117,7 +117,8 @@ pub fn equilibrium(
     policy: Policy,
 ) -> Result<Equilibrium, Error> {
     let mut state = Equilibrium::blank(&mechanism.description(), u, b);
-    let point = OperatingPoint::new(mechanism, u, b)?.asked(&[], Vec::new());
+    let mut point = OperatingPoint::new(mechanism, u, b)?;
+    point.ask(&[], Vec::new());
     equilibrium_into(&point, start, policy, &mut state)?;
     Ok(state)
 }

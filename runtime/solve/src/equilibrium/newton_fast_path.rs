@@ -16,7 +16,7 @@ use super::Equilibrium;
 use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
 use super::descent::{GROWTH, LineModel, SearchState};
 use super::operating_point::OperatingPoint;
-use crate::algebra::{Cholesky, Matrix, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows};
+use crate::algebra::{Cholesky, Vector, all_finite, dot, factor_rows, for_size, largest, solve_rows, unless_finite};
 use crate::kernels::RestParts;
 
 /// Newton's method doubles the digits: a start in the valley needs few steps.
@@ -25,12 +25,13 @@ const MAX_ITERATIONS: usize = 8;
 /// Finds the minimum of the amended potential by Newton steps from `progress`, all of them through states where it is
 /// convex. For mechanisms without constraints.
 ///
-/// Overwrites `state` except for its stability. On failure, returns the last convex state, or `progress`.
+/// Overwrites `state` except for its stability, and returns whether it is solved; otherwise `progress` is the last convex
+/// state, and what `state` holds is unspecified.
 pub(super) fn newton_fast_path(
     point: &OperatingPoint<'_>,
-    progress: SearchState,
+    progress: &mut SearchState,
     state: &mut Equilibrium,
-) -> Result<(), SearchState> {
+) -> bool {
     for_size(
         point.size(),
         #[inline(always)]
@@ -43,26 +44,24 @@ pub(super) fn newton_fast_path(
 fn newton(
     n: usize,
     point: &OperatingPoint<'_>,
-    mut progress: SearchState,
+    SearchState { q, radius, iterations }: &mut SearchState,
     state: &mut Equilibrium,
-) -> Result<(), SearchState> {
+) -> bool {
     let (u, b) = (point.inputs, point.design);
     let evaluate = |q: &[f64], residual: &mut [f64], stiffness: &mut [f64]| {
         point.mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
-    let most = progress.iterations + MAX_ITERATIONS;
-    let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
-    let mut factors = Cholesky::default();
-    let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
-    let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
-    let stiffness = &mut stiffness.as_flattened_mut()[..n * n];
-    let (lower, pivots) = factors.room(n);
-    evaluate(&progress.q[..n], residual, stiffness);
-    while progress.iterations < most {
+    let (q, most) = (&mut q[..n], *iterations + MAX_ITERATIONS);
+    let Equilibrium { coordinates, residual, linear, .. } = &mut *state;
+    let (next, residual) = (&mut coordinates[..n], &mut residual[..n]);
+    let stiffness = &mut linear.stiffness.as_flattened_mut()[..n * n];
+    let (mut factors, mut step) = (Cholesky::default(), Vector::zeros(n));
+    let ((lower, pivots), step) = (factors.room(n), &mut step[..n]);
+    evaluate(q, residual, stiffness);
+    while *iterations < most {
         if factor_rows(n, stiffness, lower, pivots).is_err() {
-            return Err(progress);
+            return false;
         }
-        let q = &mut progress.q[..n];
         step.copy_from_slice(residual);
         solve_rows(n, lower, pivots, step);
         step.iter_mut().for_each(|value| *value = -*value);
@@ -73,19 +72,20 @@ fn newton(
             if !taken {
                 step.fill(0.0);
             }
-            state.iterations = progress.iterations + usize::from(taken);
-            state.left_unstable_region = false;
-            for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
+            for ((end, q), step) in next.iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
-            return if ends(n, point, residual, (lower, pivots), state) { Ok(()) } else { Err(progress) };
+            let before = largest(residual);
+            state.iterations = *iterations + usize::from(taken);
+            state.left_unstable_region = false;
+            return ends(n, point, before, (lower, pivots), state);
         }
         let size = largest(step);
-        let limited = size > progress.radius;
+        let limited = size > *radius;
         let mut share = 1.0;
         if limited {
-            share = progress.radius / size;
-            step.iter_mut().for_each(|value| *value = *value * progress.radius / size);
+            share = *radius / size;
+            step.iter_mut().for_each(|value| *value = *value * *radius / size);
         }
         let slope = dot(step, residual);
         // A Newton step has as much curvature as slope.
@@ -98,27 +98,27 @@ fn newton(
         let slope = dot(step, residual);
         let rows = stiffness.chunks_exact(n.max(1));
         let curvature = step.iter().zip(rows).fold(-0.0, |sum, (x, row)| sum + x * dot(row, step));
-        let finite = slope.is_finite() && curvature.is_finite();
+        let finite = unless_finite(slope) + unless_finite(curvature) == 0.0;
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
-            return Err(progress);
+            return false;
         }
         if limited && way.predicts(1.0, slope) {
-            progress.radius *= GROWTH;
+            *radius *= GROWTH;
         }
         q.copy_from_slice(next);
-        progress.iterations += 1;
+        *iterations += 1;
     }
-    Err(progress)
+    false
 }
 
-/// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the remainder of
-/// `residual`, the value before the step, has fallen to a small share or to rounding, as
+/// Completes the state at the coordinates reached by the last step, and returns whether it is solved: the residual has
+/// fallen to a small share of its size `before` the step or to rounding, as
 /// [`last_step`](super::acceptance::last_step) requires.
 #[inline(always)]
 fn ends(
     n: usize,
     point: &OperatingPoint<'_>,
-    before: &[f64],
+    before: f64,
     (lower, pivots): (&[f64], &[f64]),
     state: &mut Equilibrium,
 ) -> bool {
@@ -126,18 +126,16 @@ fn ends(
     let (q, linear) = (&state.coordinates[..n], &mut state.linear);
     let mut parts = RestParts::zeros(n);
     point.mechanism.parts_and_linear_into(q, u, b, &mut parts, linear);
-    let residual = &mut state.residual[..n];
-    let both = parts.inertia[..n].iter().zip(&parts.applied[..n]);
-    for (rest, (inertia, applied)) in residual.iter_mut().zip(both) {
+    let (residual, forces) = (&mut state.residual[..n], [&parts.inertia[..n], &parts.applied[..n]]);
+    for (rest, (inertia, applied)) in residual.iter_mut().zip(forces[0].iter().zip(forces[1])) {
         *rest = inertia + -1.0 * applied;
     }
-    if !(all_finite(residual) && point.check(q, linear).is_ok()) {
+    if !(all_finite(residual) && point.infinite(n, linear).is_none()) {
         return false;
     }
-    let forces = [&parts.inertia[..], &parts.applied];
     let stiffness = linear.stiffness.as_flattened();
     state.relative_residual = relative_of((n, n), forces, q, residual, stiffness);
-    let fell = largest(residual) <= 1e-3 * largest(before) || {
+    let fell = largest(residual) <= 1e-3 * before || {
         let mut displacement = Vector::from(&*residual);
         solve_rows(n, lower, pivots, &mut displacement);
         is_rounding(&displacement[..n], q, n)
@@ -172,9 +170,11 @@ mod tests {
     #[test]
     fn the_way_is_that_of_descent() {
         let alone = Cell::new(0);
-        let fast = |point: &OperatingPoint<'_>, progress| {
+        let fast = |point: &OperatingPoint<'_>, mut progress| {
             let mut state = point.blank_state();
-            newton_fast_path(point, progress, &mut state)?;
+            if !newton_fast_path(point, &mut progress, &mut state) {
+                return Err(progress);
+            }
             alone.set(alone.get() + 1);
             Ok(state)
         };

@@ -28,8 +28,10 @@ pub struct OperatingPoint<'a> {
     /// rows do not look dependent and only hinder each other. Empty if none is left out.
     dropped: Vec<bool>,
     /// The modes of a nearby state, which speed up the computation of those of this one; may be empty.
-    pub(super) nearby: &'a [Mode],
-    pub(super) needed: Needed,
+    #[doc(hidden)]
+    pub nearby: &'a [Mode],
+    #[doc(hidden)]
+    pub needed: Needed,
     /// Whether each unknown has a start value that was given, not a default; may be empty.
     named: &'a [bool],
     /// What holds the place along free directions; if `None`, it is found from the stiffness itself.
@@ -49,13 +51,21 @@ impl<'a> OperatingPoint<'a> {
     }
 
     /// Checks inputs and design variables like [`Self::new`].
-    pub(super) fn check_values(&self) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn check_values(&self) -> Result<(), Error> {
         let (names, inputs, design) = (&self.description, self.inputs, self.design);
         check_count("inputs", inputs, names.inputs.len())?;
         check_count("design variables", design, names.design.len())?;
         check_finite("input", |k| &names.inputs[k].name, inputs)?;
         check_finite("design variable", |k| &names.design[k].name, design)?;
-        match self.mechanism.violation(inputs, design) {
+        self.check_possible()
+    }
+
+    /// Checks that finite values describe bodies that can exist.
+    #[doc(hidden)]
+    #[inline]
+    pub fn check_possible(&self) -> Result<(), Error> {
+        match self.mechanism.violation(self.inputs, self.design) {
             None => Ok(()),
             Some(violation) => Err(Error::Unphysical {
                 quantity: violation.quantity,
@@ -85,17 +95,18 @@ impl<'a> OperatingPoint<'a> {
         }
     }
 
-    /// This point with the unknowns whose start values are given, and those by which a member of a family is to be held.
+    /// Gives this point the unknowns whose start values are given, and those by which a member of a family is to be held.
     /// Unknowns with declared values follow, unless they are held at another one.
     #[doc(hidden)]
     #[inline]
-    pub fn asked(mut self, named: &'a [bool], held: Vec<Held>) -> Self {
-        let mut declared = declared(self.mechanism, self.inputs, self.design);
-        declared.retain(|declared| held.iter().all(|other| other.unknown != declared.unknown));
+    pub fn ask(&mut self, named: &'a [bool], held: Vec<Held>) {
         self.named = named;
         self.held = held;
-        self.held.append(&mut declared);
-        self
+        if !self.description.held.is_empty() {
+            let mut declared = declared(self.mechanism, self.inputs, self.design);
+            declared.retain(|declared| self.held.iter().all(|other| other.unknown != declared.unknown));
+            self.held.append(&mut declared);
+        }
     }
 
     /// This point, held as a steady motion of another design is: declared values are those of this design.
@@ -113,12 +124,13 @@ impl<'a> OperatingPoint<'a> {
     /// This point held by these unknowns and by those with declared values.
     #[doc(hidden)]
     #[inline]
-    pub fn held_by(self, held: &[Held]) -> Self {
+    pub fn held_by(mut self, held: &[Held]) -> Self {
         if held.is_empty() && self.description.held.is_empty() {
             return self;
         }
         let held = self.at_declared_values(held);
-        self.asked(&[], held)
+        self.ask(&[], held);
+        self
     }
 
     /// Whether it is held as a member of a family of steady motions.
@@ -151,16 +163,6 @@ impl<'a> OperatingPoint<'a> {
     #[inline]
     pub fn near(mut self, modes: &'a Modes) -> Self {
         self.nearby = modes.general();
-        self
-    }
-
-    /// This point with the modes of a nearby state of a mechanism with shafts, which has no others.
-    #[doc(hidden)]
-    #[inline]
-    pub fn beside(mut self, modes: &'a [Mode]) -> Self {
-        if !self.description.spans.is_empty() {
-            self.nearby = modes;
-        }
         self
     }
 
@@ -375,24 +377,24 @@ impl<'a> OperatingPoint<'a> {
     /// Refuses matrices that are not finite.
     #[inline]
     pub(crate) fn check(&self, q: &[f64], linear: &Linear) -> Result<(), Failure> {
+        let infinite = self.infinite(q.len(), linear);
+        infinite.map_or(Ok(()), |what| Err(Failure::OutsideDomain { what, coordinates: q.into() }))
+    }
+
+    /// The matrix of size `n` that is not finite, if there is one; see [`for_size`].
+    #[inline(always)]
+    pub(super) fn infinite(&self, n: usize, linear: &Linear) -> Option<&'static str> {
+        let Linear { mass, damping, stiffness } = linear;
         let undamped = matches!(self.description.damping, DampingKind::Zero);
-        let finite = |matrix: &Matrix| {
-            for_size(
-                q.len(),
-                #[inline(always)]
-                |n| all_finite(&matrix.as_flattened()[..n * n]),
-            )
-        };
-        let what = if !finite(&linear.mass) {
-            "the mass matrix"
-        } else if !undamped && !finite(&linear.damping) {
-            "the damping matrix"
-        } else if !finite(&linear.stiffness) {
-            "the stiffness matrix"
+        if !all_finite(&mass.as_flattened()[..n * n]) {
+            Some("the mass matrix")
+        } else if !undamped && !all_finite(&damping.as_flattened()[..n * n]) {
+            Some("the damping matrix")
+        } else if !all_finite(&stiffness.as_flattened()[..n * n]) {
+            Some("the stiffness matrix")
         } else {
-            return Ok(());
-        };
-        Err(Failure::OutsideDomain { what, coordinates: q.into() })
+            None
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 
 use core::mem::replace;
 
-use crate::algebra::{Vector, all_finite, dot, greater, largest};
+use crate::algebra::{Vector, dot, greater, largest, unless_finite};
 
 /// Share of the distance by which a prediction may miss.
 pub const MISSED: f64 = 0.25;
@@ -114,8 +114,13 @@ impl Path {
             return None;
         }
         let reach = self.reach(value);
-        let predicted = Vector::from_fn(self.terms.len(), |i| dot(&self.terms(i, &reach), &reach));
-        all_finite(&predicted).then_some(predicted)
+        let mut rest = 0.0;
+        let predicted = Vector::from_fn(self.terms.len(), |i| {
+            let q = dot(&self.terms(i, &reach), &reach);
+            rest += unless_finite(q);
+            q
+        });
+        (rest == 0.0).then_some(predicted)
     }
 }
 

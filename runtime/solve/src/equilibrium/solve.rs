@@ -69,11 +69,11 @@ fn solve_as_claimed(
         member::refuse_held(point)?;
     }
     let solved = if policy == Policy::Stable && has_open_potential(point) {
-        let progress = descent::SearchState::first(start);
-        match newton_fast_path::newton_fast_path(point, progress, state) {
-            Ok(()) => return judge(point, state),
-            Err(error) => solve_by_descent(point, start, &error)?,
+        let mut progress = descent::SearchState::first(start);
+        if newton_fast_path::newton_fast_path(point, &mut progress, state) {
+            return judge(point, state);
         }
+        solve_by_descent(point, start, &progress)?
     } else {
         solve_slowly(point, start, policy)?
     };
@@ -158,9 +158,10 @@ pub fn solve_from_prediction(
     if !has_open_potential(point) {
         return None;
     }
-    let progress = descent::SearchState::first(predicted);
-    newton_fast_path::newton_fast_path(point, progress, state).ok()?;
-    if !confirmed(&state.coordinates, predicted, last) {
+    let mut progress = descent::SearchState::first(predicted);
+    if !newton_fast_path::newton_fast_path(point, &mut progress, state)
+        || !confirmed(&state.coordinates, predicted, last)
+    {
         return None;
     }
     judge(point, state).ok()
@@ -254,10 +255,9 @@ fn stays(point: &OperatingPoint<'_>, start: &[f64]) -> Option<SolvedState> {
 const NAMED: f64 = 1e-8;
 
 /// The minimum that the fast path finds from `progress`.
-fn straight(point: &OperatingPoint<'_>, progress: descent::SearchState) -> Option<UnjudgedResult> {
+fn straight(point: &OperatingPoint<'_>, mut progress: descent::SearchState) -> Option<UnjudgedResult> {
     let mut state = point.blank_state();
-    newton_fast_path::newton_fast_path(point, progress, &mut state).ok()?;
-    Some(UnjudgedResult {
+    newton_fast_path::newton_fast_path(point, &mut progress, &mut state).then_some(UnjudgedResult {
         coordinates: state.coordinates,
         residual: state.residual,
         measured: Some(Measured { linear: state.linear, relative_residual: state.relative_residual }),

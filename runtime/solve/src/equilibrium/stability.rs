@@ -1,7 +1,7 @@
 //! Stability of an equilibrium according to the linearised mechanism.
 
 use super::operating_point::Failure;
-use crate::algebra::{Cholesky, Lu, Matrix, Vector, asymmetry, for_size, largest_element};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, asymmetry, factor_rows, for_size, largest_element};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{Growing, growing};
 use crate::free::FreeDirections;
@@ -52,9 +52,10 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
         #[inline(always)]
         |n| {
             let mut factors = Cholesky::default();
-            factors.factor_of(n, &linear.mass).is_ok()
-                && factors.factor_of(n, &linear.stiffness).is_ok()
-                && rounding::clear(&factors.pivots()[..n], linear)
+            let (lower, pivots) = factors.room(n);
+            factor_rows(n, linear.mass.as_flattened(), lower, pivots).is_ok()
+                && factor_rows(n, linear.stiffness.as_flattened(), lower, pivots).is_ok()
+                && rounding::clear(pivots, linear)
         },
     )
 }

@@ -191,6 +191,7 @@ impl FreeDirections {
 
     /// Adds what a change of held values contributes to the derivatives of the residual.
     #[doc(hidden)]
+    #[inline(always)]
     pub fn add_to_partials(&self, (by_input, by_design): &mut (Matrix, Matrix)) {
         for (held, column) in self.held.iter().zip(&self.columns) {
             for (i, amount) in column.iter().enumerate() {
@@ -201,6 +202,7 @@ impl FreeDirections {
     }
 
     /// The stiffness with the place held.
+    #[inline]
     pub(crate) fn held<'a>(&self, stiffness: &'a Matrix) -> Cow<'a, Matrix> {
         if self.is_empty() {
             return Cow::Borrowed(stiffness);

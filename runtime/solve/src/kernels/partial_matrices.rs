@@ -67,6 +67,22 @@ impl PartialMatrices {
         &self.entries[variables.start * each..variables.end * each]
     }
 
+    /// All three blocks.
+    #[inline]
+    pub(crate) fn lists(&self) -> [&[f64]; 3] {
+        [self.by_coordinate(), self.by_input(), self.by_design()]
+    }
+
+    /// Elements of the derivatives of `Khat` below the diagonal become the mean of both.
+    pub(crate) fn symmetrise_stiffness(&mut self) {
+        let n = self.sizes.coordinates;
+        for change in self.iter_mut() {
+            for (i, j) in (0..n).flat_map(|i| (0..i).map(move |j| (i, j))) {
+                change.stiffness[i * n + j] = 0.5 * (change.stiffness[i * n + j] + change.stiffness[j * n + i]);
+            }
+        }
+    }
+
     /// All three blocks, mutable.
     #[inline]
     pub(crate) fn lists_mut(&mut self) -> [&mut [f64]; 3] {

@@ -11,7 +11,7 @@ use crate::{Behaviour, Complex, Modes};
 /// Largest share of the assurance that a difference of eigenvalues can remove: it decides between modes of equal shape.
 pub const EIGENVALUE_SHARE: f64 = 0.05;
 /// Above this assurance a mode is recognised without looking at the other modes of its set.
-const CERTAIN: f64 = 0.6;
+pub const CERTAIN: f64 = 0.6;
 /// Below this assurance two modes of shafts are not one.
 const ALIKE: f64 = 0.3;
 
@@ -59,23 +59,34 @@ fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
 #[must_use]
 pub fn stay_in_place(from: &Modes, to: &Modes, linear: &Linear, least: f64) -> bool {
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
-    let mut pairs = from.modes.iter().zip(&to.modes);
-    undamped && from.modes.len() == to.modes.len() && pairs.all(|(x, y)| real_assurance(x, y, &linear.mass) >= least)
+    let mut stay = undamped && from.modes.len() == to.modes.len();
+    if stay {
+        each_in_place(from, to, &linear.mass, |assurance| stay &= assurance >= least);
+    }
+    stay
 }
 
-/// The assurance of two undamped modes.
-fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
-    let (x, y, mass) = (&from.shape[..], &to.shape[..], mass.as_flattened());
+/// Passes on the assurance of each pair of undamped modes in the same place.
+#[inline(always)]
+fn each_in_place(from: &Modes, to: &Modes, mass: &Matrix, mut each: impl FnMut(f64)) {
     for_size(
-        x.len(),
+        mass.row_count(),
         #[inline(always)]
         |n| {
-            let (x, y, mass) = (&x[..n], &y[..n], &mass[..n * n]);
-            let scale = real_form(n, x, mass, x) * real_form(n, y, mass, y);
-            let product = real_form(n, x, mass, y);
-            if scale > 0.0 { product * product / scale } else { 0.0 }
+            for (x, y) in from.modes.iter().zip(&to.modes) {
+                each(real_assurance(n, x, y, mass));
+            }
         },
-    )
+    );
+}
+
+/// The assurance of two undamped modes of `n` components; see [`for_size`].
+#[inline(always)]
+fn real_assurance(n: usize, from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
+    let (x, y, mass) = (&from.shape[..n], &to.shape[..n], &mass.as_flattened()[..n * n]);
+    let scale = real_form(n, x, mass, x) * real_form(n, y, mass, y);
+    let product = real_form(n, x, mass, y);
+    if scale > 0.0 { product * product / scale } else { 0.0 }
 }
 
 /// `x^T mass y` of the real parts.
@@ -119,8 +130,12 @@ pub fn match_with_assurance(from: &Modes, to: &Modes, linear: &Linear) -> Vector
     // one half.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
-        let assurances = from.modes.iter().zip(&to.modes).map(|(x, other)| real_assurance(x, other, &linear.mass));
-        let matched: Vector<_> = assurances.enumerate().map(Some).collect();
+        let (mut matched, mut places) = (Vector::filled(here, None), 0..);
+        each_in_place(from, to, &linear.mass, |assurance| {
+            if let Some(place) = places.next() {
+                matched[place] = Some((place, assurance));
+            }
+        });
         if matched.iter().flatten().all(|&(_, same)| same > CERTAIN) {
             return matched;
         }
@@ -189,7 +204,7 @@ pub fn merged(modes: &Modes, r: usize) -> bool {
     /// worse.
     const ILL_CONDITIONED: f64 = 1e5;
     let mode = &modes.modes[r];
-    let free = mode.behaviour == Behaviour::Free;
+    let free = matches!(mode.behaviour, Behaviour::Free);
     if modes.family == Family::Undamped || free || mode.condition <= ILL_CONDITIONED {
         return false;
     }
@@ -247,7 +262,7 @@ pub fn near(modes: &Modes, i: usize, j: usize, gap: f64) -> bool {
 /// Modes of free directions are near no other: their eigenvalues are exactly zero, and nothing mixes them with others.
 #[inline(always)]
 fn near_each_other(family: Family, a: &Mode, b: &Mode, gap: f64) -> bool {
-    if a.behaviour == Behaviour::Free || b.behaviour == Behaviour::Free {
+    if matches!((a.behaviour, b.behaviour), (Behaviour::Free, _) | (_, Behaviour::Free)) {
         return false;
     }
     match family {

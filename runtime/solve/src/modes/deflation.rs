@@ -247,6 +247,7 @@ pub(crate) fn roots(
 }
 
 /// The eigenpairs of symmetric matrices with `count` free directions, which come first.
+#[inline(always)]
 pub(crate) fn pairs(
     stiffness: &Matrix,
     mass: &Matrix,
@@ -256,6 +257,15 @@ pub(crate) fn pairs(
     if count == 0 {
         return symmetric::solve_into(stiffness, mass, pairs);
     }
+    pairs_with_zeros(stiffness, mass, count, pairs)
+}
+
+fn pairs_with_zeros(
+    stiffness: &Matrix,
+    mass: &Matrix,
+    count: usize,
+    pairs: &mut Pairs,
+) -> Result<(), EigenproblemError> {
     let n = mass.row_count();
     let linear = Linear { mass: mass.clone(), damping: Matrix::zeros(n, n), stiffness: stiffness.clone() };
     let split = Split::new(&linear, count);

@@ -26,7 +26,8 @@ mod whirl;
 
 #[doc(hidden)]
 pub use assurance::{
-    EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position, stay_in_place,
+    CERTAIN, EIGENVALUE_SHARE, equal_groups, in_order, match_with_assurance, merged, near, near_another, position,
+    stay_in_place,
 };
 pub use assurance::{assurance, clusters, match_modes};
 pub use blades::{BladePattern, Travel, ring_speeds};
@@ -46,7 +47,7 @@ pub use shafts::{Followed, completed, holds, judge_shafts};
 pub use undamped::undamped;
 pub use whirl::{Character, Kind, Sense, Whirl, Whirls, whirls};
 
-use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
+use crate::algebra::{Matrix, Vector, asymmetry, dot_complex, for_size, greater};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::{Eigenproblem, EigenproblemError, Pairs, Root, roots_near};
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
@@ -330,6 +331,7 @@ impl Modes {
     /// Like [`Self::solve_at`], but leaves the inputs alone and starts from all modes of a nearby equilibrium, if
     /// given.
     #[doc(hidden)]
+    #[inline]
     pub fn solve_judged(&mut self, at: &Equilibrium, judged: Vec<Mode>, nearby: &[Mode]) -> Result<(), ModesFailure> {
         if !at.description.spans.is_empty() {
             let sought = || Shafts::of(at).ok().flatten()?.modes(at, nearby, false);
@@ -350,6 +352,7 @@ impl Modes {
     /// Overwrites this set with the modes of these matrices, reusing its vectors. There are `free` directions that lead
     /// to neighbouring steady motions, and a `lambda` not beyond `floor` counts as zero. For damped modes of an open
     /// mechanism, passing all modes of a nearby one saves time.
+    #[inline]
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,
@@ -376,7 +379,8 @@ fn solve_undamped(
     floor: f64,
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
-    if !Structure::of(description).holonomic() {
+    let (structure, free) = (Structure::of(description), description.free_directions);
+    if !structure.holonomic() {
         return Err(ModesFailure::NotHolonomic);
     }
     if !description.symmetric_stiffness {
@@ -385,23 +389,32 @@ fn solve_undamped(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    let alone = Structure::of(description).open() && description.free_directions == 0;
+    let in_rings = structure.open() && free == 0 && !description.rings.is_empty();
     let mut pairs = Pairs::default();
-    let cyclic = if alone { cyclic::pairs_into(linear, description, &mut pairs) } else { None };
-    let solved = cyclic.unwrap_or_else(|| constrained::free_pairs_into(linear, description, &mut pairs));
+    let cyclic = if in_rings { cyclic::pairs_into(linear, description, &mut pairs) } else { None };
+    let solved = cyclic.unwrap_or_else(|| constrained::free_pairs_into(linear, (structure, free), &mut pairs));
     solved.map_err(ModesFailure::Pencil)?;
-    let count = pairs.lambda.len();
-    modes.reserve_exact(count.saturating_sub(modes.len()));
-    modes.resize_with(count, Mode::blank);
-    for (r, mode) in modes.iter_mut().enumerate() {
-        let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
-        let from = &pairs.shapes[r];
-        let shape = mode.make_undamped(r, (lambda, error), pairs.residuals[r], from.len());
-        for (to, from) in shape.iter_mut().zip(from) {
-            *to = Complex::from(*from);
-        }
+    let Pairs { lambda, shapes, residuals, errors } = &pairs;
+    let (lambda, residuals, errors) = (&lambda[..], &residuals[..], &errors[..]);
+    let count = lambda.len();
+    if modes.len() != count {
+        modes.reserve_exact(count.saturating_sub(modes.len()));
+        modes.resize_with(count, Mode::blank);
     }
-    for mode in modes.iter_mut().take(description.free_directions) {
+    for_size(
+        shapes.column_count(),
+        #[inline(always)]
+        |n| {
+            let shapes = shapes.as_flattened().chunks_exact(n.max(1));
+            for (r, (mode, from)) in modes.iter_mut().zip(shapes).enumerate() {
+                let shape = mode.make_undamped(r, (lambda[r], greater(floor, errors[r])), residuals[r], n);
+                for (to, from) in shape[..n].iter_mut().zip(&from[..n]) {
+                    *to = Complex::from(*from);
+                }
+            }
+        },
+    );
+    for mode in modes.iter_mut().take(free) {
         if mode.behaviour == Behaviour::Neutral {
             mode.behaviour = Behaviour::Free;
         }

@@ -67,6 +67,9 @@ impl<'a> Adjoint<'a> {
         let (matrices, residual) = match source {
             Source::Partials => {
                 mechanism.partials_into(q, u, b, matrices, residual);
+                if modes.family == Family::Undamped && !at.description.symmetric_stiffness {
+                    matrices.symmetrise_stiffness();
+                }
                 at.free.add_to_partials(residual);
                 (Some(&*matrices), Some(&*residual))
             }
@@ -77,25 +80,28 @@ impl<'a> Adjoint<'a> {
             }
             Source::Reverse => (None, None),
         };
-        let sizes = mechanism.sizes();
+        if let (Family::Undamped, Some(matrices), Some((by_input, by_design))) = (modes.family, matrices, residual) {
+            let [of_coordinates, of_inputs, of_design] = matrices.lists();
+            let of_others = [(of_inputs, by_input.as_flattened()), (of_design, by_design.as_flattened())];
+            let (inputs, design) = (u.len(), b.len());
+            return assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
+                let to = sensitivity.make_undamped(mode, inputs, design);
+                factors.undamped_from_partials(of_coordinates, &of_others, mode, to);
+            });
+        }
+        let zeros = || Gradient::zeros(mechanism.sizes());
         let shafts = ShaftSlopes::of(*mechanism, at)?;
         let shafts = shafts.as_deref().map(|own| (own, own.of_modes(&modes.modes)));
         let shared = AdjointContext { mechanism: *mechanism, at, factors, residual, shafts };
-        match (modes.family, matrices, residual) {
-            (Family::Undamped, Some(matrices), Some(residual)) => {
-                assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
-                    shared.undamped_from_partials(matrices, residual, sensitivity, mode);
-                })
-            }
-            (Family::Undamped, ..) => {
-                let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
+        match modes.family {
+            Family::Undamped => {
+                let (mut gradient, mut room) = (zeros(), zeros());
                 assemble_into(at, modes, sensitivities, |sensitivity, (_, mode)| {
                     shared.undamped(&mut gradient, &mut room, sensitivity, mode);
                 })
             }
-            (Family::General, ..) => {
-                let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
-                let mut room = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
+            Family::General => {
+                let (mut gradient, mut room) = ([zeros(), zeros()], [zeros(), zeros()]);
                 assemble_into(at, modes, sensitivities, |sensitivity, (position, mode)| {
                     shared.general(matrices, [&mut gradient, &mut room], sensitivity, (position, mode));
                 })
@@ -116,33 +122,6 @@ struct AdjointContext<'a> {
 }
 
 impl AdjointContext<'_> {
-    /// The derivatives of an undamped mode from explicit partials alone.
-    fn undamped_from_partials(
-        &self,
-        matrices: &PartialMatrices,
-        (by_input, by_design): &ResidualPartials,
-        mode_sensitivity: &mut ModeSensitivity,
-        mode: &Mode,
-    ) {
-        let symmetric = self.at.description.symmetric_stiffness;
-        let [inputs, design] = mode_sensitivity.make_undamped(mode, self.at.inputs.len(), self.at.design.len());
-        for_size(
-            mode.shape.len(),
-            #[inline(always)]
-            |n| {
-                let (mut weights, mut w) = (Matrix::zeros(n, n), Vector::zeros(n));
-                let (weights, w) = (&mut weights.as_flattened_mut()[..n * n], &mut w[..n]);
-                let form = Form::new(n, &mode.shape[..n], mode.lambda, symmetric, weights);
-                for (w, change) in w.iter_mut().zip(form.changes(matrices.by_coordinate())) {
-                    *w = form.rate(change);
-                }
-                self.factors.solve(n, w);
-                total_rates(&form, matrices.by_input(), (w, by_input), inputs);
-                total_rates(&form, matrices.by_design(), (w, by_design), design);
-            },
-        );
-    }
-
     /// The derivatives of an undamped mode, with the gradient of its form from reverse differentiation.
     fn undamped(
         &self,
@@ -231,8 +210,38 @@ impl Factors {
     fn factor(&mut self, at: &Equilibrium) -> Result<(), Error> {
         let stiffness = &*at.held_stiffness();
         let definite = at.description.symmetric_stiffness && self.definite.factor(stiffness).is_ok();
-        self.general = if definite { None } else { Some(Lu::of(stiffness.transpose()).ok_or(Error::CriticalState)?) };
+        self.general = None;
+        if !definite {
+            self.general = Some(Lu::of(stiffness.transpose()).ok_or(Error::CriticalState)?);
+        }
         Ok(())
+    }
+
+    /// The derivatives of an undamped mode by inputs and design variables, from explicit partials alone: of the matrices by
+    /// coordinates, then of matrices and residual by each.
+    fn undamped_from_partials(
+        &self,
+        by_coordinate: &[f64],
+        by_others: &[(&[f64], &[f64]); 2],
+        mode: &Mode,
+        to: [&mut [f64]; 2],
+    ) {
+        for_size(
+            mode.shape.len(),
+            #[inline(always)]
+            |n| {
+                let (mut weights, mut w) = (Matrix::zeros(n, n), Vector::zeros(n));
+                let (weights, w) = (&mut weights.as_flattened_mut()[..n * n], &mut w[..n]);
+                let form = Form::new(n, &mode.shape[..n], mode.lambda, weights);
+                for (w, change) in w.iter_mut().zip(form.changes(by_coordinate)) {
+                    *w = form.rate(change);
+                }
+                self.solve(n, w);
+                for ((matrices, residual), to) in by_others.iter().zip(to) {
+                    total_rates(&form, matrices, (w, residual), to);
+                }
+            },
+        );
     }
 
     /// Solves in place for a right-hand side of `n` numbers; see [`for_size`].
@@ -248,10 +257,10 @@ impl Factors {
 /// `phi^T (dKhat - lambda dMhat) phi - w^T dg` for several variables, from the derivatives of matrices and residual
 /// with respect to them.
 #[inline(always)]
-fn total_rates(form: &Form<'_>, matrices: &[f64], (w, residual): (&[f64], &Matrix), to: &mut [f64]) {
-    let (columns, entries) = (residual.column_count(), residual.as_flattened());
+fn total_rates(form: &Form<'_>, matrices: &[f64], (w, residual): (&[f64], &[f64]), to: &mut [f64]) {
+    let columns = to.len();
     for (k, (to, change)) in to.iter_mut().zip(form.changes(matrices)).enumerate() {
-        let shift = (0..w.len()).fold(0.0, |sum, i| sum + w[i] * entries[i * columns + k]);
+        let shift = (0..w.len()).fold(0.0, |sum, i| sum + w[i] * residual[i * columns + k]);
         *to = form.rate(change) - shift;
     }
 }

@@ -16,10 +16,13 @@ const OF_FORCES: f64 = 1e-12;
 ///
 /// # Errors
 /// [`Error::BalancesHereOnly`].
+#[inline]
 pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
-    if at.free.is_empty() {
-        return Ok(());
-    }
+    if at.free.is_empty() { Ok(()) } else { check_balanced(mechanism, at) }
+}
+
+#[cold]
+fn check_balanced(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
     let (by_input, by_design) = mechanism.residual_partials(q, u, b);
     let Err(failure) = balanced(mechanism, at, (&by_input, &by_design)) else {

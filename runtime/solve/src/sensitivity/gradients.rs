@@ -66,8 +66,6 @@ fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
 pub(super) struct Form<'a> {
     n: usize,
     lambda: f64,
-    /// Whether changes of `Khat` are symmetric.
-    symmetric: bool,
     /// `phi_i phi_j` for each element on the diagonal and both elements beside it, those below standing for both.
     weights: &'a [f64],
 }
@@ -75,14 +73,14 @@ pub(super) struct Form<'a> {
 impl<'a> Form<'a> {
     /// Of an undamped shape; `weights` is room for `n * n` numbers.
     #[inline(always)]
-    pub(super) fn new(n: usize, phi: &[Complex], lambda: f64, symmetric: bool, weights: &'a mut [f64]) -> Self {
+    pub(super) fn new(n: usize, phi: &[Complex], lambda: f64, weights: &'a mut [f64]) -> Self {
         for i in 0..n {
             for j in 0..i {
                 weights[i * n + j] = 2.0 * phi[i].re * phi[j].re;
             }
             weights[i * n + i] = phi[i].re * phi[i].re;
         }
-        Self { n, lambda, symmetric, weights }
+        Self { n, lambda, weights }
     }
 
     /// The changes of the matrices with each variable, one after the other.
@@ -91,22 +89,16 @@ impl<'a> Form<'a> {
         changes(self.n, all)
     }
 
-    /// `phi^T (dKhat - lambda dMhat) phi` for a change of the matrices.
+    /// `phi^T (dKhat - lambda dMhat) phi` for a symmetric change of the matrices.
     #[inline(always)]
     pub(super) fn rate(&self, change: &[f64]) -> f64 {
         let n = self.n;
         let Linear { mass, stiffness, .. } = parts(&change[..entries_of(n)]);
-        let element = |i: usize, j: usize| {
-            let below = stiffness[i * n + j];
-            let stiffness = if self.symmetric { below } else { 0.5 * (below + stiffness[j * n + i]) };
-            self.weights[i * n + j] * (stiffness - self.lambda * mass[i * n + j])
-        };
         let mut sum = -0.0;
         for i in 0..n {
-            for j in 0..i {
-                sum += element(i, j);
+            for k in i * n..=i * (n + 1) {
+                sum += self.weights[k] * (stiffness[k] - self.lambda * mass[k]);
             }
-            sum += element(i, i);
         }
         sum
     }

@@ -124,11 +124,11 @@ fn assemble_into(
     mut set: impl FnMut(&mut ModeSensitivity, (usize, &Mode)),
 ) -> Result<(), Error> {
     check_modes(at, modes)?;
-    sensitivities.inputs.clone_from(&at.inputs);
+    sensitivities.inputs.set(&at.inputs, |value| *value);
     sensitivities.modes.resize_with(modes.modes.len(), ModeSensitivity::blank);
     let mut finite = true;
     for (position, (sensitivity, mode)) in sensitivities.modes.iter_mut().zip(&modes.modes).enumerate() {
-        if mode.behaviour == Behaviour::Free {
+        if matches!(mode.behaviour, Behaviour::Free) {
             sensitivity.set_free(at.inputs.len(), at.design.len());
         } else if merged(modes, position) {
             sensitivity.set_merged(mode, at.inputs.len(), at.design.len());

@@ -242,7 +242,7 @@ impl ModeSensitivity {
         all_finite(&self.lambda.by_input) && all_finite(&self.lambda.by_design)
     }
 
-    #[inline]
+    #[inline(always)]
     #[doc(hidden)]
     pub fn finite(&self) -> bool {
         if self.undamped && self.value != Complex::ZERO {

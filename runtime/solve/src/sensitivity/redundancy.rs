@@ -15,16 +15,16 @@ pub(crate) const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// [`Error::ClosesHereOnly`], and [`Error::SingularConfiguration`] if constraints become dependent at exactly this
 /// configuration.
+#[inline]
 pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
+    at.regular()?;
+    if at.constraints.redundant == 0 { Ok(()) } else { check_consistent(mechanism, at) }
+}
+
+#[cold]
+fn check_consistent(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
     let description = &at.description;
     let structure = Structure::of(description);
-    if structure.constraints() == 0 {
-        return Ok(());
-    }
-    at.regular()?;
-    if at.constraints.redundant == 0 {
-        return Ok(());
-    }
     let tangent = Tangent::new(&at.linear, structure);
     let (by_input, by_design) = mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     let scale = Scale::new(at, &tangent);

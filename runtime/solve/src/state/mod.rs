@@ -136,6 +136,7 @@ impl Equilibrium {
 
     /// `Khat` with the place held along free directions: the matrix of every equation for a change of the equilibrium.
     #[doc(hidden)]
+    #[inline]
     pub fn held_stiffness(&self) -> Cow<'_, Matrix> {
         self.free.held(&self.linear.stiffness)
     }

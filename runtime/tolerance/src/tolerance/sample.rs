@@ -4,7 +4,7 @@ use super::Outcome;
 use crate::algebra::Vector;
 use crate::equilibrium::{Needed, OperatingPoint, solve_into};
 use crate::kernels::Kernels;
-use crate::modes::{Family, equal_groups, in_order, match_with_assurance, position};
+use crate::modes::{CERTAIN, Family, equal_groups, in_order, match_with_assurance, position, stay_in_place};
 use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 
 /// One sample.
@@ -85,7 +85,11 @@ impl Solution {
         let (solved, state) = (&mut self.modes, &self.state);
         match solved.solve_judged(state, judged, &modes.modes) {
             Ok(()) => {
-                let mut places = match_with_assurance(modes, solved, &state.linear).map(position);
+                let mut places = if stay_in_place(modes, solved, &state.linear, CERTAIN) {
+                    Vector::from_fn(modes.modes.len(), Some)
+                } else {
+                    match_with_assurance(modes, solved, &state.linear).map(position)
+                };
                 let size = |places: &Vector<Option<usize>>, r: usize| match places[r] {
                     None => f64::INFINITY,
                     Some(index) if solved.family == Family::Undamped => solved.modes[index].lambda,
@@ -111,8 +115,11 @@ impl Solution {
         if mechanism.violation(inputs, design).is_some() {
             return Err(Outcome::Unphysical);
         }
-        let point = OperatingPoint::unchecked(mechanism, inputs, design).near(modes);
-        let point = point.held_like(&nominal.free).only(needed);
+        let mut point = OperatingPoint::unchecked(mechanism, inputs, design).near(modes);
+        point.needed = needed;
+        if !nominal.free.held.is_empty() {
+            point = point.held_like(&nominal.free);
+        }
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
         solve_into(&point, start, Policy::about(nominal), &mut self.state).map_err(|failure| Outcome::from(&failure))

@@ -58,8 +58,8 @@ impl Tolerances {
     pub fn declared(description: &Description) -> Result<Self, Error> {
         let infos = &description.design;
         let normal = infos.iter().map(|info| info.tolerance.normal_half_width(info.nominal));
-        if normal.clone().all(|half_width| half_width.is_some()) {
-            return Self::new(normal.flatten().collect::<Vector>(), 3.0, None);
+        if let Some(half_widths) = normal.collect::<Option<Vector>>() {
+            return Self::new(half_widths, 3.0, None);
         }
         let nominal: Vector = infos.iter().map(|info| info.nominal).collect();
         let laws = infos.iter().map(|info| distribution(info.nominal, &info.tolerance, 3.0));
@@ -350,7 +350,9 @@ const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;
 fn covariance_factor(sigmas: &[f64], correlation: Option<&Matrix>) -> Result<Matrix, Error> {
     let size = sigmas.len();
     let Some(matrix) = correlation else {
-        return Ok(Matrix::from_fn(size, size, |i, j| if i == j { sigmas[i] } else { 0.0 }));
+        let mut factor = Matrix::zeros(size, size);
+        factor.iter_mut().zip(sigmas).enumerate().for_each(|(i, (row, sigma))| row[i] = *sigma);
+        return Ok(factor);
     };
     let found = (matrix.row_count(), matrix.column_count());
     if found != (size, size) {

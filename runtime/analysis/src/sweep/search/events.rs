@@ -174,6 +174,11 @@ impl Events {
 }
 
 impl Route {
+    /// Whether it passes no states.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
     /// Up to three points of one branch near a value, the nearest last; `None` if the value is as near to `last`, a
     /// point on the same branch, as the points of the route are to each other.
     pub(crate) fn towards(&self, last: Option<f64>, value: f64) -> Option<Vec<&SweepPoint>> {

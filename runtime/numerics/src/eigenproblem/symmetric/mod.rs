@@ -6,7 +6,7 @@ mod residual;
 
 use super::dense::transpose;
 use super::tridiagonal;
-use crate::algebra::{Matrix, Vector, for_size, largest};
+use crate::algebra::{Matrix, Vector, for_size, largest, unless_finite};
 use residual::Matrices;
 
 /// Why the eigenproblem was not solved.
@@ -103,14 +103,15 @@ fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
 #[inline]
 fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), EigenproblemError> {
     let threshold = 16.0 * f64::EPSILON;
-    if !(m[0] > 0.0 && m[0].is_finite()) {
+    let (k, m) = (&k[..4], &m[..4]);
+    if !(m[0] > 0.0 && unless_finite(m[0]) == 0.0) {
         return Err(EigenproblemError::SingularMass(0));
     }
     // Reciprocals of the diagonal of L.
     let r0 = 1.0 / m[0].sqrt();
     let l10 = m[2] * r0;
     let pivot = m[3] - l10 * l10;
-    if !(pivot > threshold * m[3].abs() && pivot.is_finite()) {
+    if !(pivot > threshold * m[3].abs() && unless_finite(pivot) == 0.0) {
         return Err(EigenproblemError::SingularMass(1));
     }
     let r1 = 1.0 / pivot.sqrt();

@@ -19,26 +19,25 @@ use crate::modes::deflation;
 /// Fails as inaccurate for a mechanism with speeds or constraints on velocities, which has no such pairs.
 pub fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, EigenproblemError> {
     let mut pairs = Pairs::default();
-    free_pairs_into(linear, description, &mut pairs)?;
+    free_pairs_into(linear, (Structure::of(description), description.free_directions), &mut pairs)?;
     Ok(pairs)
 }
 
 /// Like [`free_pairs`], overwriting existing pairs.
+#[inline(always)]
 pub(crate) fn free_pairs_into(
     linear: &Linear,
-    description: &Description,
+    (structure, free): (Structure, usize),
     pairs: &mut Pairs,
 ) -> Result<(), EigenproblemError> {
-    let structure = Structure::of(description);
     if structure.open() {
-        let free = description.free_directions;
         return deflation::pairs(&linear.stiffness, &linear.mass, free, pairs);
     }
     if !structure.holonomic() {
         return Err(EigenproblemError::Inaccurate { mode: 0, residual: f64::INFINITY });
     }
     let tangent = Tangent::new(linear, structure);
-    *pairs = reduced_pairs(linear, &tangent, description.free_directions)?;
+    *pairs = reduced_pairs(linear, &tangent, free)?;
     Ok(())
 }
 
