@@ -72,6 +72,15 @@ impl Response {
         matches!(self, Self::Mode { .. } | Self::Output(_) | Self::Vibration(_))
     }
 
+    /// The range of an input along which it is sought.
+    #[must_use]
+    pub fn range(&self) -> Option<Range> {
+        match self {
+            Self::Critical(range) | Self::Crossing { range, .. } | Self::Peak { range, .. } => Some(*range),
+            Self::Mode { .. } | Self::Output(_) | Self::Vibration(_) => None,
+        }
+    }
+
     /// Whether it is a size, which is never below zero: a frequency or an amplitude.
     #[must_use]
     pub fn never_negative(&self) -> bool {
@@ -127,9 +136,7 @@ impl Response {
                 let unit = vibration.unit(of);
                 return unit.unwrap_or_else(|| Quantity::DampingRatio.unit());
             }
-            Self::Critical(range) | Self::Crossing { range, .. } | Self::Peak { range, .. } => {
-                of.inputs.get(range.input.index()).map(|info| &info.unit)
-            }
+            _ => self.range().and_then(|range| of.inputs.get(range.input.index())).map(|info| &info.unit),
         };
         declared.cloned().unwrap_or_else(|| Quantity::DampingRatio.unit())
     }
@@ -290,13 +297,8 @@ impl<'a> Responses<'a> {
     /// Equilibrium solutions needed for one design.
     #[doc(hidden)]
     pub fn price(&self) -> u64 {
-        let steps = self.wanted.iter().map(|response| match response {
-            Response::Critical(range) | Response::Crossing { range, .. } | Response::Peak { range, .. } => {
-                range.steps as u64
-            }
-            Response::Mode { .. } | Response::Output(_) | Response::Vibration(_) => 0,
-        });
-        steps.fold(1, u64::saturating_add)
+        let ranges = self.wanted.iter().filter_map(Response::range);
+        ranges.map(|range| range.steps as u64).fold(1, u64::saturating_add)
     }
 
     /// The nominal equilibrium, about which responses are evaluated.

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::Args;
 use eigentol::equilibrium::{Equilibria, Search};
 use eigentol::judge;
-use eigentol::{Coordinate, Matrix, Parameter, Study, Unit};
+use eigentol::{Coordinate, Input, Matrix, Parameter, Study, Unit};
 use eigentol_compiler::Compilation;
 use eigentol_interpreter::{
     Interpreted, Setting, UnitError, coordinate, meant, parameter, read, value, with_setting, with_unit_of,
@@ -91,11 +91,20 @@ impl Question {
 
     /// Says which inputs an answer at one state takes as zero, because nothing gives their value.
     pub(crate) fn note_unset(&self) {
-        for info in self.study.description().inputs.iter() {
-            let (name, unit) = (&*info.name, &info.unit.symbol);
-            if !self.set.iter().any(|set| set == name) && !self.file.set.contains_key(name) {
-                diagnostics::note(&format!("`{name}` was not given: 0 {unit}"));
-            }
+        for info in self.study.description().inputs.iter().filter(|info| !self.gives(&info.name)) {
+            diagnostics::note(&format!("`{}` was not given: 0 {}", info.name, info.unit.symbol));
+        }
+    }
+
+    fn gives(&self, name: &str) -> bool {
+        self.set.iter().any(|set| set == name) || self.file.set.contains_key(name)
+    }
+
+    /// Takes a value from a range for an input that nothing gives, if there is no state at zero: tables may begin behind it.
+    pub(crate) fn begin(&mut self, input: usize, value: f64) {
+        let info = self.study.description().inputs.get(input);
+        if info.is_some_and(|info| !self.gives(&info.name)) && self.study.equilibrium().is_err() {
+            self.study = self.study.clone().input(Input::new(input), value);
         }
     }
 

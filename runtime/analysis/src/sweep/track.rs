@@ -13,7 +13,8 @@ use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{Held, Needed, OperatingPoint, Path, Policy, confirmed, solve_from_prediction, solve_into};
 use crate::kernels::{BatchKernels, Kernels, Linear, RestParts};
 use crate::modes::{
-    CLUSTER_GAP, Family, Followed, completed, holds, match_with_assurance, merged, near_another, position, stay_in_place,
+    CLUSTER_GAP, Family, Followed, completed, holds, match_with_assurance, merged, near_another, position,
+    stay_in_place,
 };
 use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters;

@@ -47,12 +47,14 @@ pub(crate) struct Grade {
 impl Grade {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        let question = self.point.question()?;
-        let range =
-            self.sweep.range_alone(&question)?.map(|range| Range::new(range.input.any(), range.low, range.high));
-        if range.is_none() {
-            question.note_unset();
+        let mut question = self.point.question()?;
+        let range = self.sweep.range_alone(&question)?;
+        match &range {
+            // A limit that depends on the speed is that of service, the highest.
+            Some(range) => question.study = question.study.input(range.input, range.high),
+            None => question.note_unset(),
         }
+        let range = range.map(|range| Range::new(range.input.any(), range.low, range.high));
         let required = if self.require.is_empty() { &question.file.require } else { &self.require };
         if required.is_empty() {
             let help = "state one: `--require 'velocity bearing <= 4.5 mm/s rms'`";

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use eigentol::judge;
-use eigentol::requirement::{Probabilities, Requirement};
+use eigentol::requirement::Probabilities;
 use eigentol_interpreter::FORMS;
 
 use crate::failure::Failure;
@@ -37,6 +37,7 @@ const KEYS: &str = concat!(
 
 /// Samples where each takes a search along an input.
 const SEARCHES: usize = 600;
+const SEARCHES_OF_SHAFTS: usize = 100;
 
 /// Probability of violating requirements; the method is chosen for you: design points, lines of designs, or samples
 #[derive(Args, Debug)]
@@ -60,27 +61,28 @@ pub(crate) struct Probability {
 impl Probability {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        let question = self.point.question()?;
-        let file = &question.file;
+        let mut question = self.point.question()?;
+        let file = question.file.clone();
         let (required, allowed) =
             if self.require.is_empty() { (&file.require, file.allowed()?) } else { (&self.require, Vec::new()) };
         if required.is_empty() {
             let help = format!("state one by `--require`: {FORMS}; or by `require = [..]` in a study file");
             return Err(Failure::usage("nothing is required", help));
         }
+        let (wanted, allowed) = requirements(&question.study, required, &allowed)?;
+        let ranges = wanted.iter().filter_map(|wanted| wanted.response()?.range());
+        let searched = ranges.inspect(|range| question.begin(range.input.index(), range.low)).count() > 0;
         let bar = progress::bar("designs", None);
         let study = progress::watched(question.study.clone(), &bar)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
-        let (wanted, allowed) = requirements(&study, required, &allowed)?;
-        let mut responses = wanted.iter().filter_map(Requirement::response);
-        let usual = if responses.any(|response| !response.of_state()) {
-            Some(SEARCHES)
+        let usual = if searched {
+            Some(if study.description().spans.is_empty() { SEARCHES } else { SEARCHES_OF_SHAFTS })
         } else {
             question.note_unset();
             study.modes().ok().map(|modes| judge::affordable(&modes, 100.0).max(SEARCHES))
         };
-        let count = samples(self.samples.or(file.samples).or(usual), file)?;
+        let count = samples(self.samples.or(file.samples).or(usual), &file)?;
         let outcome = study.samples(count).probability(&wanted);
         drop(bar);
         let probabilities = outcome?;

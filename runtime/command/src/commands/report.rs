@@ -49,8 +49,11 @@ impl Report {
             return Err(Failure::usage(message, "write it to a file: `-o report.html`"));
         }
         self.place.check()?;
-        let question = self.point.question()?;
+        let mut question = self.point.question()?;
         let range = self.sweep.range_if_any(&question)?;
+        if let Some(range) = &range {
+            question.begin(range.input.index(), range.low);
+        }
         let values = match &range {
             Some(range) => self.points.values(range, &question, true)?,
             None => {

@@ -22,8 +22,8 @@ pub(super) struct Step<'a, 'b> {
     length: f64,
     /// In order.
     nodes: Vec<Rc<Node>>,
-    /// The most modes that one of them has shown.
-    shown: usize,
+    /// Whether one of them has gained modes since its first answer.
+    gained: bool,
     /// How many states may still be solved.
     left: &'a mut usize,
 }
@@ -100,7 +100,16 @@ impl<'a, 'b> Step<'a, 'b> {
         left: &'a mut usize,
     ) -> Option<Self> {
         let chord = ends[0].frame.local(&ends[1].place);
-        Some(Self { curve, question, ends, length: chord.norm(), normal: chord.unit()?, nodes: Vec::new(), shown: 0, left })
+        Some(Self {
+            curve,
+            question,
+            ends,
+            length: chord.norm(),
+            normal: chord.unit()?,
+            nodes: Vec::new(),
+            gained: false,
+            left,
+        })
     }
 
     /// The state at a place.
@@ -111,14 +120,16 @@ impl<'a, 'b> Step<'a, 'b> {
         }
         *self.left = self.left.checked_sub(1)?;
         let point = match t {
-            0.0 => self.ends[0].clone(),
+            0.0 => self.curve.completed(self.ends[0].clone()),
             1.0 => self.curve.completed(self.ends[1].clone()),
             _ => self.between(t)?,
         };
         let rate = self.rate(&point)?;
-        let node = Rc::new(self.question.node(point, t, rate).ok()?);
-        self.nodes.insert(index, node.clone());
-        Some(node)
+        self.nodes.insert(index, Rc::new(self.question.node(point, t, rate).ok()?));
+        if !self.nodes[index].point.equilibrium.spans.is_empty() {
+            self.complete();
+        }
+        Some(self.nodes[index].clone())
     }
 
     /// The length of the step's parameter per unit of the local tangent of a station.
@@ -170,30 +181,21 @@ impl<'a, 'b> Step<'a, 'b> {
         (turned <= TURNED * turn + slack).then_some(corrected)
     }
 
-    /// Gives each state the modes of shafts that others of the step have shown; returns whether one was new to it.
-    fn complete(&mut self) -> bool {
-        let shown = |node: &Rc<Node>| node.modes.modes.len();
-        let Some(most) = self.nodes.iter().map(shown).max().filter(|most| *most > self.shown) else { return false };
-        self.shown = most;
-        if self.nodes[0].point.equilibrium.spans.is_empty() {
-            return false;
-        }
-        let full: Vec<Rc<Node>> = self.nodes.iter().filter(|node| shown(node) == most).cloned().collect();
-        let mut gained = false;
-        for k in 0..self.nodes.len() {
-            let node = &self.nodes[k];
-            let apart = |other: &&Rc<Node>| (other.spectrum.t - node.spectrum.t).abs();
-            let near = full.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-            let Some(near) = near.filter(|_| shown(node) < most) else { continue };
-            let point = self.curve.judged_beside(node.point.clone(), &near.modes.modes);
-            let rate = self.rate(&point);
-            let again = rate.and_then(|rate| self.question.node(point, node.spectrum.t, rate).ok()).map(Rc::new);
-            if let Some(again) = again.filter(|again| shown(again) > shown(node)) {
-                self.nodes[k] = again;
-                gained = true;
+    /// Gives each state the modes of shafts that the state beside it has more.
+    fn complete(&mut self) {
+        let forwards = (1..self.nodes.len()).map(|k| (k - 1, k));
+        for (from, to) in forwards.clone().chain(forwards.rev().map(|(k, next)| (next, k))) {
+            let [richer, node] = [from, to].map(|k| self.nodes[k].clone());
+            if richer.modes.modes.len() <= node.modes.modes.len() {
+                continue;
+            }
+            let point = self.curve.judged_beside(node.point.clone(), &richer.modes.modes);
+            let again = self.rate(&point).and_then(|rate| self.question.node(point, node.spectrum.t, rate).ok());
+            if let Some(again) = again.filter(|again| again.modes.modes.len() > node.modes.modes.len()) {
+                self.nodes[to] = Rc::new(again);
+                self.gained = true;
             }
         }
-        gained
     }
 
     /// The events of the step, in order; `located` are the special points that the walk has found on it, `outer` whether
@@ -205,20 +207,17 @@ impl<'a, 'b> Step<'a, 'b> {
         outer: [bool; 2],
         finest: f64,
     ) -> Option<Findings> {
-        self.state(0.0)?;
-        self.state(1.0)?;
-        self.complete();
-        let findings = self.found(wanted, located, outer, finest);
-        if self.complete() { self.found(wanted, located, outer, finest) } else { findings }
+        // Where a state has gained modes, what was made of it before no longer holds.
+        loop {
+            self.gained = false;
+            let findings = self.found(wanted, located, outer, finest);
+            if !self.gained {
+                return findings;
+            }
+        }
     }
 
-    fn found(
-        &mut self,
-        wanted: &Wanted,
-        located: &[Located],
-        outer: [bool; 2],
-        finest: f64,
-    ) -> Option<Findings> {
+    fn found(&mut self, wanted: &Wanted, located: &[Located], outer: [bool; 2], finest: f64) -> Option<Findings> {
         let mut findings = Findings::default();
         let mut events = Vec::new();
         let mut broken = false;
