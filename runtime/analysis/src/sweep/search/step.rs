@@ -79,6 +79,9 @@ const ASIDE: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 const ROUGHLY: f64 = 1e-6;
 /// Local length of a step that is not shortened any more.
 const SHORTEST: f64 = 1e-6;
+/// Most times that a step is looked at anew because its states have gained modes.
+const ROUNDS: usize = 8;
+
 impl States for Step<'_, '_> {
     fn state(&mut self, t: f64) -> Option<Rc<Spectrum>> {
         let spectrum = self.node(t)?.spectrum.clone();
@@ -208,13 +211,15 @@ impl<'a, 'b> Step<'a, 'b> {
         finest: f64,
     ) -> Option<Findings> {
         // Where a state has gained modes, what was made of it before no longer holds.
-        loop {
+        let mut findings = None;
+        for _ in 0..ROUNDS {
             self.gained = false;
-            let findings = self.found(wanted, located, outer, finest);
+            findings = self.found(wanted, located, outer, finest);
             if !self.gained {
-                return findings;
+                break;
             }
         }
+        findings
     }
 
     fn found(&mut self, wanted: &Wanted, located: &[Located], outer: [bool; 2], finest: f64) -> Option<Findings> {
