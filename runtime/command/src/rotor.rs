@@ -33,15 +33,14 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, Mistake> {
 
 fn read(text: &str) -> Result<Map<String, Value>, Mistake> {
     if text.trim_start().starts_with('{') {
-        let at = |error: &serde_json::Error| {
-            text.split_inclusive('\n').take(error.line().max(1) - 1).map(str::len).sum::<usize>()
-                + error.column().max(1)
-                - 1
-        };
-        return serde_json::from_str(text).map_err(|error| mistake(text, at(&error), error.to_string()));
+        return serde_json::from_str(text).map_err(|error| {
+            let before: usize = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
+            mistake(text, before + error.column().saturating_sub(1), error.to_string())
+        });
     }
-    let at = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
-    toml::from_str(text).map_err(|error: toml::de::Error| mistake(text, at(&error), error.message().to_owned()))
+    toml::from_str(text).map_err(|error: toml::de::Error| {
+        mistake(text, error.span().unwrap_or_default().start, error.message().to_owned())
+    })
 }
 
 fn mistake(text: &str, at: usize, message: String) -> Mistake {
