@@ -270,7 +270,9 @@ mechanism Casing {
 
 /// A copy of the superelements of which one file is another.
 fn changed(name: &str, file_name: &str, change: impl Fn(&str) -> String) -> (PathBuf, Run) {
-    let target = folder("superelement_changed");
+    // One for each test: they run beside each other.
+    let test = std::thread::current().name().unwrap_or_default().replace("::", "_");
+    let target = folder(&format!("{test}/superelement_changed"));
     for file in fs::read_dir(superelements()).unwrap() {
         let path = file.unwrap().path();
         fs::copy(&path, target.join(path.file_name().unwrap())).unwrap();

@@ -83,10 +83,10 @@ impl Resolver<'_> {
 /// What resists a motion as a rigid body, with advice.
 fn resists(declared: &Declared, stiffness: &Square, arms: &[[f64; 3]]) -> Option<(String, String)> {
     let motions: Vec<Vec<f64>> = (0..MOTIONS).map(|motion| declared.rigid(motion, arms)).collect();
-    let (motion, (part, row)) = (0..MOTIONS)
+    let (motion, part) = (0..MOTIONS)
         .filter(|motion| declared.moves.iter().skip(*motion).step_by(MOTIONS).take(arms.len()).all(|moves| *moves))
-        .map(|motion| (motion, resistance(stiffness, &motions[motion])))
-        .max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+        .map(|motion| (motion, resistance(stiffness, &motions[motion], 0)))
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
     if part <= ROUNDED.max(stiffness.rounding) {
         return None;
     }
@@ -103,7 +103,7 @@ fn resists(declared: &Declared, stiffness: &Square, arms: &[[f64; 3]]) -> Option
             if motion < 3 { "N/m" } else { "N*m/rad" },
             if left < 0.0 { "a negative eigenvalue" } else { "a weak spring to the ground" }
         )
-    } else if row >= MOTIONS * arms.len() {
+    } else if resistance(stiffness, &motions[motion], MOTIONS * arms.len()) > NEARLY {
         "internal coordinates are modes in which all stations stand still: other nodes are stations, or reduced first (Craig and Bampton)"
             .to_owned()
     } else if motion < 3 {
@@ -122,14 +122,13 @@ fn energy(a: &Square, x: &[f64]) -> f64 {
     (0..a.order).map(|row| x[row] * a.row(row).iter().zip(x).map(|(a, x)| a * x).sum::<f64>()).sum()
 }
 
-/// The greatest sum in a row of `a x`, as a part of its terms, and the row, of equal ones the last.
-fn resistance(a: &Square, x: &[f64]) -> (f64, usize) {
+/// The greatest sum in a row of `a x` from one on, as a part of its terms.
+fn resistance(a: &Square, x: &[f64], first: usize) -> f64 {
     let terms = |row: usize| a.row(row).iter().zip(x).map(|(a, x)| a * x);
     let sizes: Vec<f64> = (0..a.order).map(|row| terms(row).map(f64::abs).sum()).collect();
     let greatest = sizes.iter().copied().fold(0.0, f64::max);
     let part = |row: usize| terms(row).sum::<f64>().abs() / sizes[row].max(ROUNDED * greatest);
-    let each = (0..a.order).map(|row| (part(row), row)).filter(|(part, _)| *part > 0.0);
-    each.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+    (first..a.order).map(part).fold(0.0, f64::max)
 }
 
 /// By which factor the places must grow so that nothing resists a turn, if there is one.
@@ -148,7 +147,7 @@ fn unit_of_length(declared: &Declared, stiffness: &Square, arms: &[[f64; 3]]) ->
     }
     let factor = above / below;
     let scaled: Vec<[f64; 3]> = arms.iter().map(|arm| arm.map(|x| factor * x)).collect();
-    let fits = (3..MOTIONS).all(|motion| resistance(stiffness, &declared.rigid(motion, &scaled)).0 < NEARLY);
+    let fits = (3..MOTIONS).all(|motion| resistance(stiffness, &declared.rigid(motion, &scaled), 0) < NEARLY);
     (factor > 0.0 && fits).then(|| format!("{factor:.3e}").parse().unwrap_or(factor))
 }
 
