@@ -30,6 +30,13 @@ pub fn library(name: &str) -> Option<(&'static str, &'static str)> {
     LIBRARY.iter().find(|(known, _)| *known == name).copied()
 }
 
+pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// The text of a file, without the mark that spreadsheets and editors put before it.
+pub fn without_mark(text: String) -> String {
+    text.strip_prefix(BYTE_ORDER_MARK).map(str::to_owned).unwrap_or(text)
+}
+
 /// Where the files of a declaration may be, and those that have been read.
 #[derive(Debug)]
 pub struct Files {
@@ -132,7 +139,7 @@ impl Files {
         match fs::read_to_string(&path) {
             Ok(text) => {
                 self.read.push(path.clone());
-                Ok(Included { path, text })
+                Ok(Included { path, text: without_mark(text) })
             }
             Err(error) => {
                 let message = format!("`{}` cannot be read: {error}", quoted(name).unwrap_or_default());

@@ -1,6 +1,7 @@
 //! Square real matrices in Matrix Market files, as text: the exchange format of NIST
 //! (<https://math.nist.gov/MatrixMarket/formats.html>).
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 /// Most rows of a matrix.
@@ -175,6 +176,7 @@ pub fn read(text: &str) -> Result<Matrix, Mistake> {
     let mut places = (0..rows).flat_map(|column| (from(column)..rows).map(move |row| (row, column)));
     let expected = expected.unwrap_or_else(|| (0..rows).map(|column| rows - from(column)).sum());
     let (mut count, mut entries) = (0_usize, Vec::new());
+    let mut listed = HashMap::new();
     for line in lines {
         for words in line.chunks(if is_array { 1 } else { line.len() }) {
             if count == expected {
@@ -193,6 +195,11 @@ pub fn read(text: &str) -> Result<Matrix, Mistake> {
                     format!("a {} matrix lists only its lower half: swap row and column, or say general", header[4]);
                 return Err(words[0].mistake(message));
             }
+            let before = if is_array { None } else { listed.insert((row, column), words[0].line) };
+            if let Some(line) = before {
+                let message = format!("row {}, column {} has an entry in line {line} already", row + 1, column + 1);
+                return Err(words[0].mistake(message));
+            }
             let value = value.number()?;
             entries.push((row, column, value));
             if sign != 0.0 && row != column {
@@ -204,19 +211,37 @@ pub fn read(text: &str) -> Result<Matrix, Mistake> {
     if count < expected {
         return Err(ends(format!("the file ends after {count} of {expected} entries")));
     }
-    let entries = summed(entries).ok_or_else(|| ends("entries that are listed twice have no finite sum".to_owned()))?;
+    entries.sort_by_key(|(row, column, _)| (*row, *column));
     Ok(Matrix { rows, entries })
 }
 
-/// Entries in order, those at the same place summed; `None` if a sum is not finite.
-pub fn summed(mut entries: Vec<(usize, usize, f64)>) -> Option<Vec<(usize, usize, f64)>> {
-    entries.sort_by_key(|(row, column, _)| (*row, *column));
-    entries.dedup_by(|next, first| {
-        let same = (next.0, next.1) == (first.0, first.1);
-        first.2 += if same { next.2 } else { 0.0 };
-        same
-    });
-    entries.iter().all(|(_, _, value)| value.is_finite()).then_some(entries)
+/// Digits in which a change of units leaves no trace.
+pub const ALL_DIGITS: usize = 14;
+
+/// The most significant digits of an entry, up to these.
+pub fn digits(entries: &[(usize, usize, f64)]) -> usize {
+    let of = |value: f64| {
+        let text = format!("{value:.*e}", ALL_DIGITS - 1);
+        let mantissa = text.split('e').next().unwrap_or_default().trim_end_matches('0');
+        mantissa.matches(|letter: char| letter.is_ascii_digit()).count()
+    };
+    let mut most = 0;
+    for (_, _, value) in entries {
+        most = of(*value).max(most);
+        if most == ALL_DIGITS {
+            break;
+        }
+    }
+    most
+}
+
+/// How far a number of the matrix may be rounded, as a part of it: one of few digits has one less where a sign takes a place.
+/// Numbers of fewer than four are those that somebody has chosen.
+pub fn rounding(entries: &[(usize, usize, f64)]) -> f64 {
+    match digits(entries) {
+        digits @ 4..=8 => 5.0 * 0.1_f64.powi(digits as i32 - 1),
+        _ => 0.0,
+    }
 }
 
 /// Writes a matrix so that reading it gives the same numbers, as `symmetric` if it is so exactly.
@@ -250,7 +275,7 @@ mod tests {
         let plain = [(0, 0, 4.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.5)];
         for text in [
             "%%MatrixMarket matrix coordinate real general\n2 2 4\n1 1 4\n1 2 -1\n2 1 -1\n2 2 2.5\n",
-            "%%matrixmarket MATRIX Coordinate Real Symmetric\r\n% by hand\r\n\r\n2 2 4\r\n 2 2  2.5\r\n1 1 3.0D0\r\n%\n2 1 -1\n1 1 1",
+            "%%matrixmarket MATRIX Coordinate Real Symmetric\r\n% by hand\r\n\r\n2 2 3\r\n 2 2  2.5\r\n1 1 4.0D0\r\n%\n2 1 -1",
             "%%MatrixMarket matrix array real general\n2 2\n4\n-1\n-1\n2.5\n",
             "%%MatrixMarket matrix array real symmetric\n%\n2 2\n4 -1\n+25e-1\n",
         ] {
@@ -309,7 +334,8 @@ mod tests {
             (format!("{coordinate}2 2 1\n1 1 5,3\n"), (3, 1), "an entry is a line with its row"),
             (format!("{coordinate}2 2 1\n1 1\n"), (3, 1), "an entry is a line with its row"),
             (format!("{symmetric}2 2 1\n1 2 1\n"), (3, 1), "lists only its lower half"),
-            (format!("{coordinate}1 1 2\n1 1 1e308\n1 1 1e308\n"), (4, 10), "have no finite sum"),
+            (format!("{coordinate}2 2 2\n2 1 1\n2 1 1\n"), (4, 1), "row 2, column 1 has an entry in line 3 already"),
+            (format!("{symmetric}1 1 2\n1 1 1\n%\n1 1 1\n"), (5, 1), "row 1, column 1 has an entry in line 3 already"),
         ] {
             let mistake = read(&text).unwrap_err();
             assert!(mistake.message.contains(message), "{text}: {}", mistake.message);

@@ -7,6 +7,7 @@ use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::written;
+use crate::include::BYTE_ORDER_MARK;
 use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, brackets};
 
 /// One mistake in a declaration.
@@ -151,8 +152,6 @@ pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
 }
 
 const PAIRS: &str = "brackets and quotes come in pairs";
-
-const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// Signs used in drawings and word processors, and what to write instead.
 const SIGNS: [(&str, &str); 8] =

@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use eigentol_compiler::include::without_mark;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::{Compilation, Mistakes, check_text, compile_text, early_stages_of_text, with_included};
 
@@ -25,10 +26,10 @@ impl Declaration {
             let mut text = String::new();
             io::stdin().read_to_string(&mut text).map_err(failure)?;
             let name = "standard input".to_owned();
-            return Ok(Self { name, text });
+            return Ok(Self { name, text: without_mark(text) });
         }
         let text = fs::read_to_string(path).map_err(failure)?;
-        Ok(Self { name: path.display().to_string(), text })
+        Ok(Self { name: path.display().to_string(), text: without_mark(text) })
     }
 
     /// Reads a declaration with the files that it includes, or standard input if the path is `-`.

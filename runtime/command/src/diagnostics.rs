@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use eigentol_compiler::include::library;
+use eigentol_compiler::include::{library, without_mark};
 
 use crate::color::Color;
 use crate::declaration::Declaration;
@@ -80,7 +80,7 @@ fn title(message: &str, help: Option<&str>, renderer: &Renderer) -> String {
 fn drawn(level: Level<'_>, name: &str, source: &str, mistake: &Mistake, renderer: &Renderer) -> String {
     let included = |file: &PathBuf| {
         let name = file.display().to_string();
-        let text = fs::read_to_string(file).ok().or_else(|| Some(library(&name)?.1.to_owned()));
+        let text = fs::read_to_string(file).ok().map(without_mark).or_else(|| Some(library(&name)?.1.to_owned()));
         Some((name, text?))
     };
     let file = mistake.file.as_ref().and_then(included);

@@ -16,6 +16,16 @@ pub(crate) struct Mistake {
     pub(crate) file: Option<PathBuf>,
 }
 
+impl Mistake {
+    /// At a byte of a text.
+    pub(crate) fn at(text: &str, byte: usize, message: String) -> Self {
+        let before = text.get(..byte).unwrap_or_default();
+        let column = before.chars().rev().take_while(|letter| *letter != '\n').count() + 1;
+        let line = before.matches('\n').count() + 1;
+        Self { start: (line, column), end: (line, column + 1), message, help: None, file: None }
+    }
+}
+
 impl From<&eigentol_interpreter::Mistake> for Mistake {
     fn from(mistake: &eigentol_interpreter::Mistake) -> Self {
         Self {

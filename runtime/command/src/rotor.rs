@@ -7,6 +7,8 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value};
 
+use crate::mistake::Mistake;
+
 /// A declaration and what it lacks of the file.
 pub(crate) struct Rotor {
     pub(crate) declaration: String,
@@ -19,23 +21,44 @@ pub(crate) fn is_rotor(text: &str) -> bool {
 }
 
 /// Translates a rotor, or says what is wrong and where.
-pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
-    let file: Map<String, Value> = if text.trim_start().starts_with('{') {
-        serde_json::from_str(text).map_err(|error| error.to_string())?
-    } else {
-        toml::from_str(text).map_err(|error| error.to_string())?
-    };
+pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, Mistake> {
+    translated(&read(text)?, name).map_err(|message| {
+        // Most begin with the key of an element.
+        let is_key = |at: usize, key: &str| text[at + key.len()..].starts_with(['"', ']']);
+        let place = |key| text.match_indices(key).find(|(at, key)| is_key(*at, key)).map(|(at, _)| at);
+        let at = message.split('`').nth(1).and_then(place).unwrap_or(0);
+        mistake(text, at, message)
+    })
+}
+
+fn read(text: &str) -> Result<Map<String, Value>, Mistake> {
+    if text.trim_start().starts_with('{') {
+        return serde_json::from_str(text).map_err(|error| {
+            let before: usize = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
+            mistake(text, before + error.column().saturating_sub(1), error.to_string())
+        });
+    }
+    toml::from_str(text).map_err(|error: toml::de::Error| {
+        mistake(text, error.span().unwrap_or_default().start, error.message().to_owned())
+    })
+}
+
+fn mistake(text: &str, at: usize, message: String) -> Mistake {
+    let help = Some("a rotor is what `Rotor.save` of ROSS writes, in TOML or JSON".to_owned());
+    Mistake { help, ..Mistake::at(text, at, message) }
+}
+
+fn translated(file: &Map<String, Value>, name: Option<&str>) -> Result<Rotor, String> {
     let mut notes = Vec::new();
+    let mut others = Vec::new();
     let mut elements: BTreeMap<&str, Vec<Element<'_>>> = BTreeMap::new();
-    for (key, value) in &file {
+    for (key, value) in file {
         let Some((kind, _)) = key.split_once("Element_").or_else(|| key.split_once('_')) else { continue };
         let Value::Object(fields) = value else { continue };
         match kind {
             "Shaft" | "Disk" | "PointMass" => elements.entry(kind).or_default().push(Element { key, fields }),
             _ if fields.contains_key("kxx") => elements.entry("Bearing").or_default().push(Element { key, fields }),
-            _ if fields.contains_key("n") => {
-                notes.push(format!("`{key}` is left out: shafts, disks, bearings and seals are translated"));
-            }
+            _ if fields.contains_key("n") => others.push(Element { key, fields }),
             _ => {}
         }
     }
@@ -46,10 +69,13 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
     let (mut table, mut places) = (String::new(), vec![0.0]);
     for (k, (node, layers)) in rows.iter().enumerate() {
         if *node != first + k {
-            return Err(format!(
-                "no shaft element begins at node {}, but one at node {node}: one shaft is translated, its nodes in order",
-                first + k
-            ));
+            let missing = first + k;
+            let between = others.iter().find(|other| other.node() == Ok(missing));
+            let why = match between {
+                Some(other) => format!("`{}` stands between node {missing} and the next", other.key),
+                None => format!("`{}` begins at node {node}, but no shaft element at node {missing}", layers[0].key),
+            };
+            return Err(why + ": one shaft is translated, its nodes in order");
         }
         let length = layers[0].number("L")?;
         places.push(places[k] + length);
@@ -59,14 +85,15 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
                 return Err(format!("`{}` is not as long as the other element from node {node}", layer.key));
             }
             table += &layer.sizes(&mut materials)?;
-            notes.extend(layer.left_out());
+            notes.extend(layer.left_out()?);
         }
         table += "],";
     }
     // Layers from one node share one motion: their forces add.
-    let force =
-        |layers: &Vec<Element<'_>>| layers.iter().filter_map(|layer| layer.number("axial_force").ok()).sum::<f64>();
-    let forces: Vec<f64> = rows.values().map(force).collect();
+    let force = |layers: &Vec<Element<'_>>| -> Result<f64, String> {
+        layers.iter().try_fold(0.0, |sum, layer| Ok(sum + layer.list("axial_force")?.iter().sum::<f64>()))
+    };
+    let forces = rows.values().map(force).collect::<Result<Vec<f64>, String>>()?;
     let tension = match forces[0] {
         same if forces.iter().any(|other| *other != same) => {
             notes.push("axial forces that differ from element to element are left out".to_owned());
@@ -79,7 +106,7 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
     let on_shaft = |node: usize| node.checked_sub(first).filter(|station| *station < places.len());
     let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
     for bearing in of("Bearing") {
-        let Some(link) = bearing.link() else { continue };
+        let Some(link) = bearing.link()? else { continue };
         let key = bearing.key;
         let station = on_shaft(bearing.node()?).filter(|_| on_shaft(link).is_none());
         let station = station.ok_or_else(|| format!("`{key}` does not link the shaft to a support beside it"))?;
@@ -126,13 +153,18 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
     }
     for (k, bearing) in of("Bearing").iter().enumerate() {
         let own = standing(bearing)?;
-        let seat = match bearing.link() {
+        let seat = match bearing.link()? {
             Some(node) => format!("support_{node} at [0, 0, 0]"),
             None => format!("ground at [{} m, 0, 0]", own.place),
         };
         rest += &bearing.film(k, [&seat, &own.on])?;
-        if ["mxx", "myy", "mxy", "myx"].iter().any(|mass| bearing.largest(mass) != 0.0) {
-            notes.push(format!("the masses of `{}` are left out", bearing.key));
+        for (fields, what) in [
+            (&["mxx", "myy", "mxy", "myx", "mzz"][..], "masses"),
+            (&["kzz", "czz"], "stiffness and damping along the axis"),
+        ] {
+            if bearing.any(fields)? {
+                notes.push(format!("the {what} of `{}` are left out", bearing.key));
+            }
         }
     }
     if rest.contains("curve ") {
@@ -155,6 +187,11 @@ pub(crate) fn import(text: &str, name: Option<&str>) -> Result<Rotor, String> {
     notes.push(
         "the file has no unbalance: declare one, as in `unbalance u: on disk_0, amount: 100 g*mm, angle: 0 deg;`"
             .to_owned(),
+    );
+    notes.extend(
+        others
+            .iter()
+            .map(|other| format!("`{}` is left out: shafts, disks, bearings and seals are translated", other.key)),
     );
     notes.sort();
     notes.dedup();
@@ -193,16 +230,24 @@ impl Element<'_> {
     }
 
     /// Numbers that may be one for all speeds.
-    fn list(&self, field: &str) -> Vec<f64> {
-        match self.fields.get(field) {
-            Some(Value::Array(list)) => list.iter().filter_map(Value::as_f64).collect(),
-            Some(value) => value.as_f64().into_iter().collect(),
-            None => Vec::new(),
-        }
+    fn list(&self, field: &str) -> Result<Vec<f64>, String> {
+        let values = match self.fields.get(field) {
+            Some(Value::Array(list)) => list,
+            Some(value) => std::slice::from_ref(value),
+            None => &[],
+        };
+        let wrong = || format!("`{}` must have finite numbers as its `{field}`", self.key);
+        values.iter().map(|value| value.as_f64().ok_or_else(wrong)).collect()
     }
 
-    fn largest(&self, field: &str) -> f64 {
-        self.list(field).into_iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+    /// Whether one of the numbers is not zero.
+    fn any(&self, fields: &[&str]) -> Result<bool, String> {
+        fields.iter().try_fold(false, |any, field| Ok(any || self.list(field)?.iter().any(|value| *value != 0.0)))
+    }
+
+    /// A field that ROSS may have left empty.
+    fn given(&self, field: &str) -> Option<&Value> {
+        self.fields.get(field).filter(|value| !value.is_null())
     }
 
     /// The diameters and the material of a layer.
@@ -220,32 +265,36 @@ impl Element<'_> {
         Ok(format!(", {}, {}, {name}", size("odl", "odr")?, size("idl", "idr")?))
     }
 
-    fn left_out(&self) -> Vec<String> {
+    fn left_out(&self) -> Result<Vec<String>, String> {
         let is_false = |field: &str| self.fields.get(field) == Some(&Value::Bool(false));
         let mut all = Vec::new();
-        if self.largest("torque") != 0.0 {
+        if self.any(&["torque"])? {
             all.push("torques are left out".to_owned());
         }
-        if ["alpha", "beta"].iter().any(|field| self.largest(field) != 0.0) {
+        if self.any(&["alpha", "beta"])? {
             all.push("proportional damping of the shaft is left out: give `lag` or `drag`".to_owned());
         }
         if is_false("rotary_inertia") || is_false("gyroscopic") {
             all.push("sections have rotary inertia and gyroscopic moments, which the file leaves out".to_owned());
         }
-        all
+        Ok(all)
     }
 
     /// The node beside the shaft that it stands on.
-    fn link(&self) -> Option<usize> {
-        Some(self.fields.get("n_link")?.as_u64()? as usize)
+    fn link(&self) -> Result<Option<usize>, String> {
+        let Some(link) = self.given("n_link") else { return Ok(None) };
+        let node = link.as_u64().ok_or_else(|| format!("`{}` must have a node as its `n_link`", self.key))?;
+        Ok(Some(node as usize))
     }
 
     /// The force of a bearing between two places, with curves against speed.
     fn film(&self, k: usize, [seat, journal]: [&str; 2]) -> Result<String, String> {
-        let speeds = self.list("frequency");
+        // A `CylindricalBearing` has its speeds under another name.
+        let speeds = if self.given("frequency").is_some() { "frequency" } else { "speed" };
+        let speeds = if self.given(speeds).is_some() { self.list(speeds)? } else { Vec::new() };
         let mut curves = String::new();
         let mut coefficient = |field: &str, unit: &str| -> Result<String, String> {
-            let values = self.list(field);
+            let values = self.list(field)?;
             match values[..] {
                 [] => Ok("0".to_owned()),
                 [only] => Ok(format!("{only} {unit}")),
@@ -254,7 +303,9 @@ impl Element<'_> {
                     curves += &format!("    curve {field}_{k}: {speeds:?} rad/s -> {values:?} {unit};\n");
                     Ok(format!("{field}_{k}(speed)"))
                 }
-                _ => Err(format!("`{field}` of `{}` has not as many values as `frequency`", self.key)),
+                _ => {
+                    Err(format!("`{}` has {} values of `{field}` for {} speeds", self.key, values.len(), speeds.len()))
+                }
             }
         };
         let mut matrix = |letter: &str, unit: &str| -> Result<String, String> {

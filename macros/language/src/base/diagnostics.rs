@@ -113,6 +113,11 @@ impl Diagnostics {
         }
     }
 
+    /// Puts a place before the messages from the given one on.
+    pub fn prefix_from(&mut self, first: usize, place: &str) {
+        self.list[first..].iter_mut().for_each(|diagnostic| diagnostic.message.insert_str(0, place));
+    }
+
     /// Moves all mistakes of another collector into this one.
     pub fn append(&mut self, mut other: Diagnostics) {
         self.extend(other.list.drain(..));

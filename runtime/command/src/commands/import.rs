@@ -90,16 +90,16 @@ impl Import {
             return self.superelement(&file, folder);
         }
         if rotor::is_rotor(&file.text) {
-            let imported = rotor::import(&file.text, self.name.as_deref()).map_err(|message| Failure::Value {
-                place: file.name.clone(),
-                message,
-                help: Some("a rotor is what `Rotor.save` of ROSS writes, in TOML or JSON".to_owned()),
-            })?;
+            let imported =
+                rotor::import(&file.text, self.name.as_deref()).map_err(|mistake| file.refused(vec![mistake]))?;
             self.place.write(&imported.declaration)?;
             if !self.quiet {
                 imported.notes.iter().for_each(diagnostics::note);
             }
             return Ok(Verdict::Yes);
+        }
+        if !file.text.trim_start().starts_with('<') {
+            return Err(file.refused(vec![of_no_kind()]));
         }
         let is_mjcf = is_mjcf(&file.text);
         let options = self.options(self.joints.unwrap_or(if is_mjcf { Joints::File } else { Joints::Springs }))?;
@@ -184,6 +184,14 @@ impl Import {
         }
         Ok(springs)
     }
+}
+
+/// What a file is not.
+fn of_no_kind() -> Mistake {
+    let message = "this is no URDF, MJCF, rotor of ROSS or superelement, or it is cut off".to_owned();
+    let help = "`import` reads URDF and MJCF (XML), what `Rotor.save` of ROSS writes (TOML or JSON), and JSON that begins with \
+                `{\"superelement\": \"name\"` and names the files of its matrices";
+    Mistake { help: Some(help.to_owned()), ..Mistake::at("", 0, message) }
 }
 
 fn si(option: &str, text: &str, symbol: &str) -> Result<f64, Failure> {

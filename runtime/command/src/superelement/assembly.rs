@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use eigentol_compiler::matrix_market::{self, MOST_ROWS, summed};
+use eigentol_compiler::matrix_market::{self, ALL_DIGITS, MOST_ROWS, digits};
 
 use super::matrix::{Label, Matrix};
 
@@ -73,12 +73,19 @@ impl Order {
             .iter()
             .map(|row| (self.at(*row), if matches!(row, Row::Station(row) if row % 6 > 2) { length } else { 1.0 }))
             .collect();
+        let digits = digits(&matrix.entries);
         let entries = matrix.entries.iter().map(|(row, column, value)| {
             let ((row, turns), (column, turned)) = (places[*row], places[*column]);
-            (row, column, value * (factor * (turns * turned)))
+            (row, column, to_digits(value * (factor * (turns * turned)), digits))
         });
-        let mut entries = summed(entries.collect())?;
-        entries.retain(|(_, _, value)| *value != 0.0);
-        Some(matrix_market::Matrix { rows: 6 * self.stations + self.internal.len(), entries })
+        let mut entries: Vec<_> = entries.filter(|(_, _, value)| *value != 0.0).collect();
+        entries.sort_by_key(|(row, column, _)| (*row, *column));
+        let is_finite = entries.iter().all(|(_, _, value)| value.is_finite());
+        is_finite.then(|| matrix_market::Matrix { rows: 6 * self.stations + self.internal.len(), entries })
     }
+}
+
+/// Rounded again after a change of units: how many digits a matrix has says how far its terms cancel.
+fn to_digits(value: f64, digits: usize) -> f64 {
+    if digits == ALL_DIGITS { value } else { format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value) }
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use eigentol_compiler::include::without_mark;
 use eigentol_compiler::matrix_market::{self, Mistake, end};
 use serde::Deserialize;
 
@@ -97,7 +98,7 @@ impl<'a> Files<'a> {
                 return Err(self.wrong(format.unwrap_or(at), message));
             }
         };
-        let matrix = matrix.map_err(file.wrong())?;
+        let matrix = matrix.and_then(Matrix::once).map_err(file.wrong())?;
         Ok((file, matrix))
     }
 
@@ -112,7 +113,10 @@ impl<'a> Files<'a> {
         }
         let text = String::from_utf8(fs::read(&path).map_err(unreadable)?);
         let text = text.map_err(|_| self.wrong(at, format!("`{name}` is binary: write it in ASCII")))?;
-        let file = Declaration { name: self.folder.join(name).display().to_string(), text };
+        let file = Declaration { name: self.folder.join(name).display().to_string(), text: without_mark(text) };
+        if file.text.trim().is_empty() {
+            return Err(file.wrong()(first("the file is empty")));
+        }
         if !file.text.ends_with('\n') {
             let message =
                 "the file is cut off: its last line has no end; write it again, or end the line if it is whole";

@@ -21,6 +21,14 @@ pub(super) struct File<'a> {
     pub(super) stiffness: Source<'a>,
     #[serde(borrow)]
     pub(super) damping: Option<Source<'a>>,
+    pub(super) held: Option<Held>,
+}
+
+/// Where the part is fixed, if it is.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Held {
+    Inside,
 }
 
 /// Units of the matrices and positions; what is not given is in SI.
@@ -68,9 +76,8 @@ impl<'a> At<'a> {
     /// A mistake in this value of a text.
     pub(super) fn mistake(self, text: &str, message: impl Into<String>) -> Mistake {
         let at = (self.0.get().as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
-        let before = text.get(..at).unwrap_or_default();
-        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-        Mistake { line: before.matches('\n').count() + 1, column, message: message.into() }
+        let (line, column) = crate::mistake::Mistake::at(text, at, String::new()).start;
+        Mistake { line, column, message: message.into() }
     }
 
     pub(super) fn get<T: Deserialize<'a>>(self, text: &str) -> Result<T, Mistake> {

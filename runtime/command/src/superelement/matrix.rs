@@ -17,6 +17,22 @@ pub(super) struct Matrix {
     pub(super) entries: Vec<Entry>,
 }
 
+impl Matrix {
+    /// Refuses a matrix with two entries in one place: programs do not agree on what they mean.
+    pub(super) fn once(self) -> Result<Self, Mistake> {
+        let mut listed = HashSet::new();
+        let Some((row, column, _)) = self.entries.iter().find(|(row, column, _)| !listed.insert((*row, *column)))
+        else {
+            return Ok(self);
+        };
+        let [row, column] = [*row, *column].map(|k| match self.labels.as_ref().and_then(|labels| labels.get(k)) {
+            Some((node, direction)) => format!("direction {direction} of node {node}"),
+            None => format!("row {}", k + 1),
+        });
+        Err(first(format!("the entry of {row} and {column} is listed twice")))
+    }
+}
+
 impl From<matrix_market::Matrix> for Matrix {
     fn from(matrix: matrix_market::Matrix) -> Self {
         Self { order: matrix.rows, labels: None, entries: matrix.entries }

@@ -96,10 +96,11 @@ impl<'a> Part<'a> {
             places.push(format!("[{}]", station.position.map(|x| format!("{} m", self.scales.metres(x))).join(", ")));
         }
         let body = identifier(&self.file.superelement);
+        let held = if self.file.held.is_some() { "held: inside, " } else { "" };
         let mechanism = mechanism.map_or_else(|| capitalised(&body), str::to_owned);
         format!(
             "/// A superelement from a finite element program.\nmechanism {mechanism} {{\n{comments}    \
-             body {body}: superelement({arguments}stations: [{}]);\n}}\n",
+             body {body}: superelement({arguments}{held}stations: [{}]);\n}}\n",
             places.join(", ")
         )
     }

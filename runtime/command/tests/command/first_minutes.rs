@@ -154,16 +154,8 @@ fn beyond_the_ends_of_a_curve_in_the_unit_of_the_curve() {
     let path = file(&folder, "film.mechanism", text);
     let at = |value: &str| run(&["modes", &path, "--set", value]);
     for (value, end, beyond) in [
-        (
-            "speed=500rpm",
-            "distance of the argument from the beginning of curve k at 1000 rpm (negative: before it) must be",
-            "but is -500\n",
-        ),
-        (
-            "speed=5000rpm",
-            "distance of the argument from the end of curve k at 3000 rpm (negative: beyond it) must be",
-            "but is -2000\n",
-        ),
+        ("speed=500rpm", "k begins at 1000 rpm: its argument minus that (rpm) must be", "but is -500\n"),
+        ("speed=5000rpm", "k ends at 3000 rpm: that minus its argument (rpm) must be", "but is -2000\n"),
     ] {
         let Run { code, err, .. } = at(value);
         assert_eq!(code, 1);

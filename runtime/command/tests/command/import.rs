@@ -159,11 +159,17 @@ fn what_is_wrong_with_a_rotor_of_ross_is_named() {
     let text = fs::read_to_string(path).unwrap();
     for (old, new, message) in [
         ("n = 6", "n = 9", "`DiskElement_Disk 1` is at node 9, which is off the shaft"),
-        ("n = 2", "n = 20", "no shaft element begins at node 2, but one at node 3"),
+        ("n = 2", "n = 20", "begins at node 3, but no shaft element at node 2"),
         ("idl = 0.0\n", "", "`ShaftElement_Shaft Element 0` has no number `idl`"),
         ("odl = 0.05\n", "odl = \"a\"\n", "`ShaftElement_Shaft Element 1` has no number `odl`"),
-        ("frequency = [ 0.0, 500.0, 1000.0,]", "frequency = [1.0]", "has not as many values as `frequency`"),
-        ("kxx = [", "kxx = 7 [", "TOML parse error"),
+        ("frequency = [ 0.0, 500.0, 1000.0,]", "frequency = [1.0]", "values of `kxx` for 1 speeds"),
+        ("kxx = [", "kxx = 7 [", "expected newline"),
+        ("kxx = [", "kxx = [ nan,", "must have finite numbers as its `kxx`"),
+        ("kxx = [", "kxx = [ inf,", "must have finite numbers as its `kxx`"),
+        ("kxx = [", "kxx = [ \"1e6\",", "must have finite numbers as its `kxx`"),
+        ("kyy = [", "kyy = nan\nold = [", "must have finite numbers as its `kyy`"),
+        ("axial_force = 0", "axial_force = \"0\"", "must have finite numbers as its `axial_force`"),
+        ("n = 1\nscale_factor = 1\n", "n = 1\nn_link = -1\n", "must have a node as its `n_link`"),
         ("L = 0.25", "L = 0.2", "is not as long as"),
         ("n = 1\nscale_factor = 1\n", "n = 1\nn_link = 3\n", "does not link the shaft to a support"),
         ("n = 1\nscale_factor = 1\n", "n = 1\nn_link = 8\n", "node 8 is a support without mass"),
@@ -171,12 +177,38 @@ fn what_is_wrong_with_a_rotor_of_ross_is_named() {
     ] {
         assert!(text.contains(old), "{old}");
         let run = run_with_input(&["import", "-"], &text.replacen(old, new, 1));
-        assert_eq!((run.code, run.out.as_str()), (2, ""), "{new}");
+        assert_eq!((run.code, run.out.as_str()), (3, ""), "{new}");
         assert!(run.err.contains(message), "{message}: {}", run.err);
     }
-    for end in (600..text.len()).step_by(97) {
+    let coupled =
+        run_with_input(&["import", "-"], &text.replace("ShaftElement_Shaft Element 1\"", "CouplingElement_C\""));
+    assert!(coupled.err.contains("`CouplingElement_C` stands between node 1 and the next"), "{}", coupled.err);
+    for end in (0..text.len()).step_by(97) {
         let run = run_with_input(&["import", "-"], &text[..end]);
-        assert!(run.code == 2 || !run.out.is_empty(), "{end}: {}", run.err);
+        assert!(run.code == 3 || !run.out.is_empty(), "{end}: {}", run.err);
+    }
+}
+
+/// Speeds under the name that a `CylindricalBearing` gives them; what acts along the axis.
+#[test]
+fn other_words_of_ross_are_read() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/truth/ross/stepped.toml");
+    let text = fs::read_to_string(path).unwrap();
+    let plain = run_with_input(&["import", "-"], &text);
+    let other = run_with_input(&["import", "-"], &text.replace("frequency = [", "speed = ["));
+    assert_eq!((other.code, &other.out), (0, &plain.out));
+    let axial = run_with_input(&["import", "-"], &text.replace("kzz = [ 0,]", "kzz = [ 7.0,]"));
+    assert_eq!((axial.code, &axial.out), (0, &plain.out));
+    assert!(axial.err.contains("note: the stiffness and damping along the axis of `"), "{}", axial.err);
+}
+
+#[test]
+fn what_is_of_no_kind_is_told_what_import_reads() {
+    for text in ["", "# ROSS", "{}", "[robot]\nlinks = 3\n", "%%MatrixMarket matrix\n"] {
+        let run = run_with_input(&["import", "-"], text);
+        assert_eq!((run.code, run.out.as_str()), (3, ""), "{text}");
+        let message = "this is no URDF, MJCF, rotor of ROSS or superelement, or it is cut off";
+        assert!(run.err.contains(message) && run.err.contains("`Rotor.save` of ROSS"), "{}", run.err);
     }
 }
 
@@ -238,7 +270,9 @@ mechanism Casing {
 
 /// A copy of the superelements of which one file is another.
 fn changed(name: &str, file_name: &str, change: impl Fn(&str) -> String) -> (PathBuf, Run) {
-    let target = folder("superelement_changed");
+    // One for each test: they run beside each other.
+    let test = std::thread::current().name().unwrap_or_default().replace("::", "_");
+    let target = folder(&format!("{test}/superelement_changed"));
     for file in fs::read_dir(superelements()).unwrap() {
         let path = file.unwrap().path();
         fs::copy(&path, target.join(path.file_name().unwrap())).unwrap();
@@ -316,6 +350,7 @@ fn what_is_wrong_with_a_superelement_is_drawn() {
         &[
             ("%%MatrixMarket", "%%Matrix", "market.json:6:", "`market_mass.mtx` is of no format that is known"),
             ("\n1 1 ", "\n1 1 x", "market_mass.mtx:", "is not a number"),
+            ("\n2 2 ", "\n1 1 ", "market_mass.mtx:5:1", "row 1, column 1 has an entry in line 4 already"),
         ],
     );
     expect(
@@ -367,6 +402,12 @@ fn what_is_wrong_with_a_superelement_is_drawn() {
                 "205,7,205,1,",
                 "abaqus_stiffness.mtx:",
                 "a direction is 1 to 6, or 0 of what has none, not 7",
+            ),
+            (
+                "205,1,205,1,",
+                "205,1,205,1,5\n205,1,205,1,",
+                "abaqus_stiffness.mtx:",
+                "the entry of direction 1 of node 205 and direction 1 of node 205 is listed twice",
             ),
             ("205,1,205,1,", "205,1,205,", "abaqus_stiffness.mtx:", "a line of 4 words, where others have 5"),
             (
@@ -460,6 +501,41 @@ fn what_is_wrong_with_a_superelement_is_drawn() {
     assert!(failed.is_empty(), "{failed}");
 }
 
+/// What `check` would say of the declaration is said of the matrix in the description.
+#[test]
+fn a_superelement_that_cannot_be_used_is_not_imported() {
+    for (file, old, new, place, message) in [
+        ("market.json", "[0, 0, 100]", "[0, 7, 100]", ":7:25", "this stiffness resists a motion about"),
+        ("market.json", "\"position\": [500, 0, 100]", "\"position\": [5, 0, 1]", ":7:25", "resists a motion about"),
+        ("market_stiffness.mtx", "\n1 1 ", "\n1 1 -", ":7:25", "is not positive"),
+        ("market_mass.mtx", "\n1 1 ", "\n1 1 -", ":6:20", "the mass"),
+    ] {
+        let (target, run) = changed("market", file, |text| text.replacen(old, new, 1));
+        assert_eq!((run.code, run.out.as_str()), (3, ""), "{new}: {}", run.err);
+        assert!(run.err.contains(message) && run.err.contains(&format!("market.json{place}")), "{}", run.err);
+        assert!(!target.join("out.part").exists() && !target.join("out_mass.mtx").exists());
+    }
+}
+
+/// As fields of eight characters have them: negative numbers have one digit less.
+#[test]
+fn a_superelement_of_few_digits_is_one() {
+    let rounded = |text: &str, digits: usize| -> String {
+        let (head, rest) = text.split_at(text.match_indices('\n').nth(2).unwrap().0);
+        let entry = |line: &str| {
+            let [row, column, value] = line.split_whitespace().collect::<Vec<_>>()[..] else { return line.to_owned() };
+            let value: f64 = value.parse().unwrap();
+            format!("{row} {column} {:.*e}", digits - usize::from(value < 0.0), 1.234_567_8 * value)
+        };
+        head.to_owned() + &rest.lines().map(entry).collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let (target, run) = changed("market", "market_stiffness.mtx", |text| rounded(text, 4));
+    assert_eq!((run.code, run.err.contains("note: the stiffness has 5 digits: ")), (0, true), "{}", run.err);
+    let matrix = fs::read_to_string(target.join("out_stiffness.mtx")).unwrap();
+    let digits = |line: &str| line.rsplit(' ').next().unwrap().split('e').next().unwrap().replace(['.', '-'], "").len();
+    assert!(matrix.lines().skip(2).all(|line| digits(line) <= 5), "{matrix}");
+}
+
 /// Formats that say how much they have are refused wherever they are cut off, others within a line.
 #[test]
 fn a_superelement_that_is_cut_off_is_refused() {
@@ -509,7 +585,7 @@ fn motions_that_the_files_of_a_superelement_lack_are_zero() {
     };
     let text = format!(
         "{{\"superelement\": \"2nd foot\", \"stations\": [{{\"node\": 1, \"position\": [0, 0, 0]}}], \"unknowns\": {unknowns},
-        \"mass\": {}, \"stiffness\": {}}}",
+        \"held\": \"inside\", \"mass\": {}, \"stiffness\": {}}}",
         solid("1 0 0 1 0 1"),
         solid("5 -2 0 6 0 7")
     );
@@ -524,9 +600,29 @@ fn motions_that_the_files_of_a_superelement_lack_are_zero() {
         "%%MatrixMarket matrix coordinate real symmetric\n6 6 4\n1 1 5e0\n2 1 -2e0\n2 2 6e0\n3 3 7e0\n"
     );
     let declaration = fs::read_to_string(&output).unwrap();
+    assert!(declaration.contains("held: inside, stations: ["), "{declaration}");
     assert!(declaration.contains("mechanism Foot {") && declaration.contains("body part_2nd_foot: "), "{declaration}");
     // Again, over what is there.
     assert_eq!(run(&["import", &path, "--output", &output, "--quiet"]).err, "");
+}
+
+/// As spreadsheets and editors write it before a text.
+#[test]
+fn a_byte_order_mark_is_no_part_of_a_text() {
+    for file in ["market.json", "market_mass.mtx"] {
+        let (_, run) = changed("market", file, |text| format!("\u{feff}{text}"));
+        assert_eq!((run.code, run.err.as_str()), (0, ""), "{file}");
+    }
+    let target = folder("marks");
+    let part = "\u{feff}part Seat { port at; point seat: ground; }\n";
+    file(&target, "seat.part", part);
+    file(&target, "rotor.csv", "\u{feff}length [mm], outer [mm]\n400, 30\n");
+    let text =
+        "\u{feff}mechanism Rotor { input speed: rpm; material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+        body rotor: shaft(along: x, up: z, material: steel, sections: \"rotor.csv\") spinning at speed; }
+        include \"seat.part\";";
+    let run = run(&["check", &file(&target, "rotor.mechanism", text)]);
+    assert_eq!(run.code, 0, "{}", run.err);
 }
 
 #[test]

@@ -83,15 +83,13 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
         let [first, last] = curve.range().map(|end| curve.with_unit(end));
         let [low, high] = curve.range_with_ends().map(|end| g.constant(end));
         let name = curve.spline.name();
+        let unit = match curve.unit.symbol.as_str() {
+            "" => String::new(),
+            symbol => format!(" ({symbol})"),
+        };
         let ends = [
-            (
-                format!("distance of the argument from the beginning of curve {name} at {first} (negative: before it)"),
-                g.sub(argument, low),
-            ),
-            (
-                format!("distance of the argument from the end of curve {name} at {last} (negative: beyond it)"),
-                g.sub(high, argument),
-            ),
+            (format!("{name} begins at {first}: its argument minus that{unit}"), g.sub(argument, low)),
+            (format!("{name} ends at {last}: that minus its argument{unit}"), g.sub(high, argument)),
         ];
         for (quantity, value) in ends {
             // The message shows this value next to the end of the curve, in the declared unit.

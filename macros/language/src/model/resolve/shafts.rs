@@ -38,6 +38,13 @@ const MOST: usize = 4096;
 /// A material, and the share of the area that carries shear if it is given.
 type Whole = (Properties, Option<Expr>);
 
+/// An entry of the table.
+struct Cell {
+    value: Value,
+    /// Where it is if that is in a file: `rotor.csv, line 3, column 2: `.
+    place: String,
+}
+
 impl Resolver<'_> {
     /// A shaft stands alone: no other shape can be added to it.
     pub(super) fn shaft(&mut self, body: &ast::Body, shaft: &Term) -> Option<()> {
@@ -244,12 +251,8 @@ impl Resolver<'_> {
     }
 
     fn sections_of_shaft(&mut self, name: &Ident, value: &Value, whole: &Whole) -> Option<Vec<Row>> {
-        let in_file = match &value.kind {
+        let rows: Option<Vec<Vec<Cell>>> = match &value.kind {
             ValueKind::File(file) => Some(self.sections_in_file(value, file)?),
-            _ => None,
-        };
-        let rows: Option<Vec<&[Value]>> = match &value.kind {
-            ValueKind::File(_) => in_file.iter().flatten().map(row_of).collect(),
             ValueKind::Vector(rows, None) if !rows.is_empty() => rows.iter().map(row_of).collect(),
             _ => None,
         };
@@ -259,7 +262,7 @@ impl Resolver<'_> {
             self.diagnostics.error_with_help(value.extent, message, help);
             return None;
         };
-        let sections = rows.into_iter().enumerate().map(|(index, row)| {
+        let sections = rows.iter().enumerate().map(|(index, row)| {
             let number = index + 1;
             let (first, layers) = row.split_first()?;
             let length = self.size_of_section(name, number, "length", first);
@@ -283,19 +286,19 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         number: usize,
-        entries: &[Value],
-        at: &Value,
+        entries: &[Cell],
+        at: &Cell,
         whole: &Whole,
     ) -> Option<Vec<Layer>> {
         let mut layers = Vec::new();
-        let mut sizes: Vec<&Value> = Vec::new();
+        let mut sizes: Vec<&Cell> = Vec::new();
         let mut rest = entries.iter().peekable();
         while let Some(entry) = rest.next() {
-            let material = self.material_named_by(entry);
-            if let (None, ValueKind::Name(named)) = (&material, &entry.kind)
+            let material = self.material_named_by(&entry.value);
+            if let (None, ValueKind::Name(named)) = (&material, &entry.value.kind)
                 && self.scope.find_or_unclear(&named.to_string()).is_none()
             {
-                self.unknown_material(named);
+                self.in_cell(entry, |this, _| this.unknown_material(named));
                 return None;
             }
             if material.is_none() {
@@ -308,19 +311,22 @@ impl Resolver<'_> {
                 [outer] => (outer, None),
                 [outer, inner] => (outer, Some(inner)),
                 _ => {
-                    let message = format!("a layer of section {number} has an outer diameter and perhaps an inner one");
+                    let message = format!(
+                        "{}a layer of section {number} has an outer diameter and perhaps an inner one",
+                        entry.place
+                    );
                     let help =
                         "name the material before the next layer: `[80 mm, 40 mm, 20 mm, steel, 44 mm, 40 mm, bronze]`";
-                    self.diagnostics.error_with_help(entry.extent, message, help);
+                    self.diagnostics.error_with_help(entry.value.extent, message, help);
                     return None;
                 }
             };
             sizes.clear();
             let material = material.unwrap_or_else(|| Some(whole.0.clone()))?;
             if let Some(missing) = missing(&material) {
-                let message = format!("section {number} of `{name}` has no {missing}");
+                let message = format!("{}section {number} of `{name}` has no {missing}", entry.place);
                 let help = "write `material: steel` and declare `material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;`";
-                self.diagnostics.error_with_help(entry.extent, message, help);
+                self.diagnostics.error_with_help(entry.value.extent, message, help);
                 return None;
             }
             let layer = self.layer(name, number, (outer, inner), (material, whole.1.clone()))?;
@@ -330,25 +336,26 @@ impl Resolver<'_> {
             layers.push(layer);
         }
         if layers.is_empty() {
-            let message = format!("section {number} of `{name}` has a length and no diameter");
-            self.diagnostics.error(at.extent, message);
+            let message = format!("{}section {number} of `{name}` has a length and no diameter", at.place);
+            self.diagnostics.error(at.value.extent, message);
             return None;
         }
         Some(layers)
     }
 
     /// A layer begins where the one before it ends, or outside.
-    fn around(&mut self, name: &Ident, number: usize, layers: [&Layer; 2], at: &Value) -> Option<()> {
+    fn around(&mut self, name: &Ident, number: usize, layers: [&Layer; 2], at: &Cell) -> Option<()> {
         let radius =
             |layer: &Layer, end: usize, k: usize| layer.table.ends[end].get(k).map_or(0.0, |x| self.nominal_of(x));
         for end in 0..2 {
             let [outer, inner] = [radius(layers[0], end, 0), radius(layers[1], end, 1)].map(|radius| 2.0 * radius);
             if inner < outer * (1.0 - 1e-9) {
                 let message = format!(
-                    "this layer of section {number} of `{name}` begins at a diameter of {inner} m, within the layer before, which ends at {outer} m"
+                    "{}this layer of section {number} of `{name}` begins at a diameter of {inner} m, within the layer before, which ends at {outer} m",
+                    at.place
                 );
                 let help = "a layer around another has an inner diameter: `[80 mm, 40 mm, 20 mm, steel, 44 mm, 40 mm, bronze]`";
-                self.diagnostics.error_with_help(at.extent, message, help);
+                self.diagnostics.error_with_help(at.value.extent, message, help);
                 return None;
             }
         }
@@ -366,26 +373,26 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
         number: usize,
-        (outer, inner): (&Value, Option<&Value>),
+        (outer, inner): (&Cell, Option<&Cell>),
         (material, coefficient): Whole,
     ) -> Option<Layer> {
         let diameters = self.both_ends(name, number, "outer diameter", outer);
         let bores = match inner {
-            Some(value) if matches!(&value.kind, ValueKind::Number(0.0, _)) => None,
-            Some(value) => Some((self.both_ends(name, number, "inner diameter", value)?, value)),
+            Some(cell) if matches!(&cell.value.kind, ValueKind::Number(0.0, _)) => None,
+            Some(cell) => Some((self.both_ends(name, number, "inner diameter", cell)?, cell)),
             None => None,
         };
         let diameters = diameters?;
         let radius = |diameter: &Expr| multiply(Expr::Number(0.5), diameter.clone());
         let (kind, ends) = match bores {
             None => (Kind::Circle, diameters.each_ref().map(|diameter| vec![radius(diameter)])),
-            Some((bores, value)) => {
+            Some((bores, cell)) => {
                 for (bore, diameter) in bores.iter().zip(&diameters) {
                     self.requirements.push(Requirement {
-                        what: format!("the inner diameter of section {number} of `{name}`"),
+                        what: format!("{}the inner diameter of section {number} of `{name}`", cell.place),
                         values: vec![bore.clone(), diameter.clone()],
                         demand: Demand::BelowOuter,
-                        extent: value.extent,
+                        extent: cell.value.extent,
                     });
                 }
                 (Kind::Tube, [0, 1].map(|end| vec![radius(&diameters[end]), radius(&bores[end])]))
@@ -405,34 +412,46 @@ impl Resolver<'_> {
     }
 
     /// A size at the beginning and at the end of a section: `taper(60 mm, 40 mm)`, or one for both.
-    fn both_ends(&mut self, name: &Ident, number: usize, what: &str, value: &Value) -> Option<[Expr; 2]> {
-        match &value.kind {
+    fn both_ends(&mut self, name: &Ident, number: usize, what: &str, cell: &Cell) -> Option<[Expr; 2]> {
+        match &cell.value.kind {
             ValueKind::Call(word, ends) if word == "taper" => {
                 let [first, last] = &ends[..] else {
-                    let message = "`taper` has a size at the beginning of the section and one at its end";
-                    self.diagnostics.error_with_help(value.extent, message, "write `taper(60 mm, 40 mm)`");
+                    let message =
+                        format!("{}`taper` has a size at the beginning of the section and one at its end", cell.place);
+                    self.diagnostics.error_with_help(cell.value.extent, message, "write `taper(60 mm, 40 mm)`");
                     return None;
                 };
-                let [first, last] = [first, last].map(|end| self.size_of_section(name, number, what, end));
+                let [first, last] = [first, last].map(|end| {
+                    let end = Cell { value: end.clone(), place: cell.place.clone() };
+                    self.size_of_section(name, number, what, &end)
+                });
                 Some([first?, last?])
             }
             _ => {
-                let size = self.size_of_section(name, number, what, value)?;
+                let size = self.size_of_section(name, number, what, cell)?;
                 Some([size.clone(), size])
             }
         }
     }
 
-    fn size_of_section(&mut self, name: &Ident, number: usize, what: &str, value: &Value) -> Option<Expr> {
+    fn size_of_section(&mut self, name: &Ident, number: usize, what: &str, cell: &Cell) -> Option<Expr> {
         let what = format!("the {what} of section {number} of `{name}`");
-        let size = self.scalar_of(value, Dimension::LENGTH, &what)?;
+        let size = self.in_cell(cell, |this, value| this.scalar_of(value, Dimension::LENGTH, &what))?;
         self.requirements.push(Requirement {
-            what,
+            what: cell.place.clone() + &what,
             values: vec![size.clone()],
             demand: Demand::Positive(Dimension::LENGTH),
-            extent: value.extent,
+            extent: cell.value.extent,
         });
         Some(size)
+    }
+
+    /// Reads a cell so that what is wrong with it is said with its place.
+    fn in_cell<T>(&mut self, cell: &Cell, read: impl FnOnce(&mut Self, &Value) -> T) -> T {
+        let before = self.diagnostics.len();
+        let read = read(self, &cell.value);
+        self.diagnostics.prefix_from(before, &cell.place);
+        read
     }
 }
 
@@ -521,11 +540,10 @@ fn sections_of_layers(length: &Expr, layers: &[Layer], steps: usize) -> Vec<Sect
     pairs.collect()
 }
 
-fn row_of(row: &Value) -> Option<&[Value]> {
-    match &row.kind {
-        ValueKind::Vector(entries, None) if !entries.is_empty() => Some(entries),
-        _ => None,
-    }
+fn row_of(row: &Value) -> Option<Vec<Cell>> {
+    let ValueKind::Vector(entries, None) = &row.kind else { return None };
+    let cells = entries.iter().map(|value| Cell { value: value.clone(), place: String::new() });
+    (!entries.is_empty()).then(|| cells.collect())
 }
 
 fn missing(material: &Properties) -> Option<&'static str> {

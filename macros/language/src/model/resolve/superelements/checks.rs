@@ -9,6 +9,8 @@ use crate::base::span::Extent;
 
 /// What is left of a sum of terms that cancel, as a part of the terms: files have some seven digits.
 const ROUNDED: f64 = 1e-6;
+/// What is no longer a mistake of units or of order, but of small terms.
+const NEARLY: f64 = 1e-3;
 /// What is added to a diagonal, as a part of it, so that rigid bodies count as positive.
 const SHIFT: f64 = 1e-6;
 const WORDS: [&str; MOTIONS] = ["along x", "along y", "along z", "about x", "about y", "about z"];
@@ -83,37 +85,50 @@ fn resists(declared: &Declared, stiffness: &Square, arms: &[[f64; 3]]) -> Option
     let motions: Vec<Vec<f64>> = (0..MOTIONS).map(|motion| declared.rigid(motion, arms)).collect();
     let (motion, part) = (0..MOTIONS)
         .filter(|motion| declared.moves.iter().skip(*motion).step_by(MOTIONS).take(arms.len()).all(|moves| *moves))
-        .map(|motion| (motion, resistance(stiffness, &motions[motion])))
+        .map(|motion| (motion, resistance(stiffness, &motions[motion], 0)))
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
-    if part <= ROUNDED {
+    if part <= ROUNDED.max(stiffness.rounding) {
         return None;
     }
+    let percent = 100.0 * part;
     let message = format!(
-        "this stiffness resists a motion {} as a rigid body: {:.1} % of its terms are left, where all should cancel",
+        "this stiffness resists a motion {} as a rigid body: {} % of its terms are left, where all should cancel",
         WORDS[motion],
-        100.0 * part
+        if percent < 0.1 { format!("{percent:.1e}") } else { format!("{percent:.1}") }
     );
-    let help = if motion < 3 {
+    let help = if part < NEARLY {
+        let left = energy(stiffness, &motions[motion]);
+        format!(
+            "a stiffness of {left:.2e} {} is left, {}: numbers of too few digits, or something that was added to the diagonal",
+            if motion < 3 { "N/m" } else { "N*m/rad" },
+            if left < 0.0 { "a negative eigenvalue" } else { "a weak spring to the ground" }
+        )
+    } else if resistance(stiffness, &motions[motion], MOTIONS * arms.len()) > NEARLY {
+        "internal coordinates are modes in which all stations stand still: other nodes are stations, or reduced first (Craig and Bampton)"
+            .to_owned()
+    } else if motion < 3 {
         "a part that is fixed to the ground within its matrices is `held: inside`; else check the order of the rows"
             .to_owned()
+    } else if let Some(unit) = unit_of_length(declared, stiffness, arms) {
+        format!("with places {unit} times as large nothing resists: matrix and places are in different units of length")
     } else {
-        match unit_of_length(declared, stiffness, arms) {
-            Some(unit) => format!(
-                "with places {unit} times as large nothing resists: matrix and places are in different units of length"
-            ),
-            None => "check the places of the stations, the order of the rows, and the units of both".to_owned(),
-        }
+        "check the places of the stations, the order of the rows, and the units of both".to_owned()
     };
     Some((message, help))
 }
 
-/// The greatest sum in a row of `a x`, as a part of its terms.
-fn resistance(a: &Square, x: &[f64]) -> f64 {
+/// Twice the energy of a motion.
+fn energy(a: &Square, x: &[f64]) -> f64 {
+    (0..a.order).map(|row| x[row] * a.row(row).iter().zip(x).map(|(a, x)| a * x).sum::<f64>()).sum()
+}
+
+/// The greatest sum in a row of `a x` from one on, as a part of its terms.
+fn resistance(a: &Square, x: &[f64], first: usize) -> f64 {
     let terms = |row: usize| a.row(row).iter().zip(x).map(|(a, x)| a * x);
     let sizes: Vec<f64> = (0..a.order).map(|row| terms(row).map(f64::abs).sum()).collect();
     let greatest = sizes.iter().copied().fold(0.0, f64::max);
     let part = |row: usize| terms(row).sum::<f64>().abs() / sizes[row].max(ROUNDED * greatest);
-    (0..a.order).map(part).fold(0.0, f64::max)
+    (first..a.order).map(part).fold(0.0, f64::max)
 }
 
 /// By which factor the places must grow so that nothing resists a turn, if there is one.
@@ -132,7 +147,7 @@ fn unit_of_length(declared: &Declared, stiffness: &Square, arms: &[[f64; 3]]) ->
     }
     let factor = above / below;
     let scaled: Vec<[f64; 3]> = arms.iter().map(|arm| arm.map(|x| factor * x)).collect();
-    let fits = (3..MOTIONS).all(|motion| resistance(stiffness, &declared.rigid(motion, &scaled)) < 1e3 * ROUNDED);
+    let fits = (3..MOTIONS).all(|motion| resistance(stiffness, &declared.rigid(motion, &scaled), 0) < NEARLY);
     (factor > 0.0 && fits).then(|| format!("{factor:.3e}").parse().unwrap_or(factor))
 }
 
@@ -141,15 +156,14 @@ fn masses_differ(declared: &Declared, mass: &Square, arms: &[[f64; 3]]) -> Optio
     let weigh = |motion: usize| -> Option<f64> {
         let moves = declared.moves.iter().skip(motion).step_by(MOTIONS).take(arms.len()).all(|moves| *moves);
         let x = declared.rigid(motion, arms);
-        let row = |row: usize| x[row] * mass.row(row).iter().zip(&x).map(|(a, x)| a * x).sum::<f64>();
-        moves.then(|| (0..mass.order).map(row).sum())
+        moves.then(|| energy(mass, &x))
     };
     let masses: Vec<(usize, f64)> = (0..3).filter_map(|motion| Some((motion, weigh(motion)?))).collect();
     let (_, first) = *masses.first()?;
     if first <= 0.0 {
         return Some(format!("the mass {} is {first:.6} kg", WORDS[masses[0].0]));
     }
-    let other = masses.iter().find(|(_, other)| (other - first).abs() > 1e3 * ROUNDED * first)?;
+    let other = masses.iter().find(|(_, other)| (other - first).abs() > NEARLY * first)?;
     Some(format!("the mass is {first:.6} kg {}, but {:.6} kg {}", WORDS[masses[0].0], other.1, WORDS[other.0]))
 }
 
@@ -169,7 +183,7 @@ fn not_positive(a: &Square) -> Option<usize> {
             let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
             let own = a.mean(i, j) / (scale(i) * scale(j));
             if i == j {
-                let square = own + if diagonal[i] > 0.0 { SHIFT } else { 1.0 } - known;
+                let square = own + if diagonal[i] > 0.0 { SHIFT.max(a.rounding) } else { 1.0 } - known;
                 if square <= 0.0 {
                     return Some(i);
                 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::base::span::Extent;
-use crate::matrix_market::Matrix;
+use crate::matrix_market::{Matrix, rounding};
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Frame;
 
@@ -46,15 +46,17 @@ pub(in crate::model::resolve) struct Square {
     /// The sign of an entry across the diagonal.
     across: f64,
     entries: Vec<f64>,
+    /// How far its numbers are rounded in its file, as a part of each.
+    pub(super) rounding: f64,
 }
 
 impl Square {
     pub(super) fn zeros(order: usize) -> Self {
-        Self { order, across: 1.0, entries: vec![0.0; order * order] }
+        Self { order, across: 1.0, entries: vec![0.0; order * order], rounding: 0.0 }
     }
 
     pub(super) fn of(matrix: &Matrix, across: f64) -> Self {
-        let mut square = Self { across, ..Self::zeros(matrix.rows) };
+        let mut square = Self { across, rounding: rounding(&matrix.entries), ..Self::zeros(matrix.rows) };
         matrix.entries.iter().for_each(|(row, column, value)| square.entries[row * matrix.rows + column] = *value);
         // Modes are orthogonal but for rounding, which would couple all with all.
         let size: Vec<f64> = (0..square.order).map(|row| square.entry(row, row).abs().sqrt()).collect();
@@ -94,6 +96,7 @@ impl Square {
     }
 
     pub(super) fn add(&mut self, factor: f64, other: &Self) {
+        self.rounding = self.rounding.max(other.rounding);
         self.entries.iter_mut().zip(&other.entries).for_each(|(to, from)| *to += factor * from);
     }
 
@@ -106,7 +109,7 @@ impl Square {
             let apart = (self.entry(row, column) - self.across * self.entry(column, row)).abs();
             if apart == 0.0 { 0.0 } else { apart / most[row].max(most[column]) }
         };
-        both.max_by(|a, b| part(a).total_cmp(&part(b))).filter(|worst| part(worst) > ROUNDED)
+        both.max_by(|a, b| part(a).total_cmp(&part(b))).filter(|worst| part(worst) > ROUNDED.max(self.rounding))
     }
 }
 

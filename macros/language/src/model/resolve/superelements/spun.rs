@@ -116,7 +116,7 @@ fn is_of_nodes(declared: &Declared, mass: &Square) -> bool {
     let is_right = |row: usize, column: usize| {
         let [i, j] = [row, column].map(|k| (k / MOTIONS, k % MOTIONS));
         let expected = if i.1 == j.1 && i.1 < 3 { mass.mean(MOTIONS * i.0, MOTIONS * j.0) } else { 0.0 };
-        (mass.mean(row, column) - expected).abs() <= ROUNDED * greatest
+        (mass.mean(row, column) - expected).abs() <= ROUNDED.max(mass.rounding) * greatest
     };
     mass.order == order && (0..order).all(|row| (0..order).all(|column| is_right(row, column)))
 }
