@@ -10,6 +10,7 @@ use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::quote_spanned;
 
 use crate::base::diagnostics::Diagnostic;
+pub use crate::base::quoted::without_mark;
 use crate::base::quoted::{DATA, ending, file_name, placed, quoted};
 
 /// Parts that come with eigentol: found by these names where the folder has no such file.
@@ -28,13 +29,6 @@ const LIBRARY: [(&str, &str); 9] = [
 /// The name and the text of a part of the library.
 pub fn library(name: &str) -> Option<(&'static str, &'static str)> {
     LIBRARY.iter().find(|(known, _)| *known == name).copied()
-}
-
-pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
-
-/// The text of a file, without the mark that spreadsheets and editors put before it.
-pub fn without_mark(text: String) -> String {
-    text.strip_prefix(BYTE_ORDER_MARK).map(str::to_owned).unwrap_or(text)
 }
 
 /// Where the files of a declaration may be, and those that have been read.

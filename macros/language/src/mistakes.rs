@@ -7,7 +7,7 @@ use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
 use crate::base::names::written;
-use crate::include::BYTE_ORDER_MARK;
+use crate::base::quoted::BYTE_ORDER_MARK;
 use crate::syntax::nesting::{NAME_PARTS, TOO_LARGE, brackets};
 
 /// One mistake in a declaration.

@@ -30,7 +30,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     (
         "runtime/solve",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-shafts", "eigentol-statistics"],
-        375,
+        377,
     ),
     (
         "runtime/tolerance",
@@ -47,7 +47,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-statistics",
             "eigentol-tolerance",
         ],
-        479,
+        481,
     ),
     (
         "runtime/uncertainty",
@@ -78,7 +78,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     ),
     ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 70),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 497),
+    ("macros/language", &["eigentol-symbolic"], 500),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 424),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),
@@ -105,7 +105,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        169,
+        175,
     ),
     (
         "runtime/python",
@@ -120,7 +120,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
             "eigentol-tables",
             "eigentol-urdf",
         ],
-        113,
+        114,
     ),
 ];
 

@@ -2,6 +2,13 @@
 
 use proc_macro2::{Group, Literal, Span, TokenStream, TokenTree};
 
+pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// The text of a file, without the mark that spreadsheets and editors put before it.
+pub fn without_mark(text: String) -> String {
+    text.strip_prefix(BYTE_ORDER_MARK).map(str::to_owned).unwrap_or(text)
+}
+
 /// How the names of files end that are read: tables and matrices.
 pub(crate) const DATA: [&str; 2] = ["csv", "mtx"];
 

@@ -3,7 +3,6 @@
 use core::cell::RefCell;
 
 use super::bordered::Bordered;
-use super::curve_point::CurvePoint;
 use super::local_scaling::{CurvePosition, Frame, System};
 use super::settings::Continuation;
 use crate::algebra::{Matrix, Vector, add_to, all_finite};
@@ -14,7 +13,7 @@ use crate::equilibrium::{
 use crate::error::NotFound;
 use crate::free::{FreeDirections, Held};
 use crate::kernels::{DirectionalKernels, Linear};
-use crate::modes::{Followed, completed, judge_shafts};
+use crate::modes::{Followed, judge_shafts};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Mode, Shared, Watch};
 
@@ -35,7 +34,7 @@ pub(crate) struct Curve<'a> {
     /// Redundant constraints, omitted from Newton's method for regularity; every point must still meet all of them.
     dropped: Vec<bool>,
     /// With shafts, what the way has shown.
-    followed: RefCell<Followed>,
+    pub(super) followed: RefCell<Followed>,
 }
 
 /// The reason why a point was not reached.
@@ -285,23 +284,6 @@ impl<'a> Curve<'a> {
         self.followed.borrow_mut().take(state.inputs[self.settings.input.index()], &modes);
         state.stability = stability;
         Some(modes)
-    }
-
-    /// A point of shafts with all of the lowest modes.
-    pub(crate) fn completed(&self, mut point: CurvePoint) -> CurvePoint {
-        if !self.description.spans.is_empty() {
-            point.judged = completed(&point.equilibrium, point.judged);
-            self.followed.borrow_mut().join(&point.judged);
-        }
-        point
-    }
-
-    /// A point with the modes of shafts that continue those of another.
-    pub(crate) fn judged_beside(&self, mut point: CurvePoint, nearby: &[Mode]) -> CurvePoint {
-        if let Some((_, modes)) = judge_shafts(self.mechanism, &mut point.equilibrium, nearby, true) {
-            point.judged = modes;
-        }
-        point
     }
 
     /// The free directions at a point of the branch, and what holds it.

@@ -8,7 +8,7 @@ use crate::equilibrium::{Equilibrium, SolvedState};
 use crate::error::NotFound;
 use crate::free::FreeDirections;
 use crate::kernels::Linear;
-use crate::modes::free_pairs;
+use crate::modes::{completed, free_pairs, judge_shafts};
 use crate::{Description, Mode};
 
 /// A regular point of a branch.
@@ -97,6 +97,23 @@ impl Curve<'_> {
             tangent,
             signs,
         })
+    }
+
+    /// A point of shafts with all of the lowest modes.
+    pub(crate) fn completed(&self, mut point: CurvePoint) -> CurvePoint {
+        if !self.description.spans.is_empty() {
+            point.judged = completed(&point.equilibrium, point.judged);
+            self.followed.borrow_mut().join(&point.judged);
+        }
+        point
+    }
+
+    /// A point with the modes of shafts that continue those of another.
+    pub(crate) fn judged_beside(&self, mut point: CurvePoint, nearby: &[Mode]) -> CurvePoint {
+        if let Some((_, modes)) = judge_shafts(self.mechanism, &mut point.equilibrium, nearby, true) {
+            point.judged = modes;
+        }
+        point
     }
 
     /// The first station of a branch, with its tangent towards the high end of the range.
