@@ -98,7 +98,7 @@ fn a_curve_ends() {
     for speed in [BEGIN, END] {
         assert!(at(speed).is_ok());
     }
-    for (speed, words) in [(0.999 * BEGIN, "beginning of curve"), (1.001 * END, "end of curve")] {
+    for (speed, words) in [(0.999 * BEGIN, "begins at"), (1.001 * END, "ends at")] {
         let Err(error @ Error::Unphysical { .. }) = at(speed) else { panic!("{speed}") };
         let text = error.to_string();
         assert!(text.contains(words) && text.contains("cxy"), "{text}");

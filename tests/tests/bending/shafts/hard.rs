@@ -179,3 +179,57 @@ fn what_is_not_resolved_hides_nothing_behind_it() {
         );
     }
 }
+
+/// Pairs of motions without oscillation begin to oscillate within the ranges: which modes are the lowest changes, and critical speeds
+/// do not depend on where a range begins. The first ones are those of finite elements in another program.
+#[test]
+fn critical_speeds_do_not_depend_on_the_range() {
+    let study = |damping: &str, stiffness: &str, other: f64| {
+        let bearing = |name: &str, place: &str| {
+            format!(
+                "point {name}_seat: ground at [{place}, 0, 0]; point {name}: rotor at {};
+                 force {name}_film: bushing(from: {name}_seat, to: {name}, stiffness: [0, k(speed), {other} * k(speed)],
+                     damping: [0, c(speed), c(speed)]);",
+                if name == "left" { "root" } else { "tip" }
+            )
+        };
+        Study::new(machine(&format!(
+            "mechanism Films {{ input speed: rpm;
+                curve c: [1000, 3000, 5000, 7000, 9000] rpm -> [{damping}] kN*s/m;
+                curve k: [1000, 3000, 5000, 7000, 9000] rpm -> [{stiffness}] MN/m;
+                material steel: density 7850 kg/m^3, modulus 205 GPa, poisson 0.29;
+                body rotor: shaft(along: x, up: z, material: steel,
+                    sections: [[400 mm, 120 mm], [400 mm, 120 mm], [400 mm, 120 mm], [400 mm, 120 mm]]) spinning at speed;
+                body disk: rigid(mass: 150 kg, inertia: [2, 1.2, 1.2] kg*m^2);
+                joint turns: revolute(x) from rotor at station 2 to disk, driven at speed; {} {} }}",
+            bearing("left", "0 m"),
+            bearing("right", "1.6 m")
+        )))
+    };
+    let rpm = std::f64::consts::TAU / 60.0;
+    let crossings = |study: &Study<_>, low: f64, high: f64| {
+        let found = study.campbell(Input::new(0), &[low * rpm, high * rpm], &[1.0]).expect("a diagram");
+        let searched = found.searched.as_ref().expect("a search");
+        assert!(searched.unresolved.is_empty(), "{low} to {high}: {:?}", searched.unresolved);
+        let all = found.crossings.iter().chain(&found.not_excited);
+        let mut all: Vec<f64> = all.map(|own| own.value / rpm).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    };
+    let round = study("400, 250, 150, 100, 80", "60, 60, 62, 66, 72", 1.0);
+    for (low, high) in [(1000.0, 9000.0), (1500.0, 7000.0), (2000.0, 7000.0), (1200.0, 9000.0), (2500.0, 5000.0)] {
+        let all = crossings(&round, low, high);
+        assert!(all.len() == 2, "{low} to {high}: {all:?}");
+        assert!((all[0] - 3024.86).abs() < 0.01 && (all[1] - 3030.255).abs() < 0.01, "{all:?}");
+    }
+    // Here some of those that begin cross the line at once.
+    let other = study("250, 147.1, 86.6, 51.0, 30", "40, 40, 40, 40, 40", 1.6);
+    let whole = crossings(&other, 1000.0, 9000.0);
+    assert!(whole.len() == 6, "{whole:?}");
+    for (low, high) in [(3500.0, 9000.0), (5500.0, 7000.0), (2000.0, 6500.0)] {
+        let expected: Vec<f64> = whole.iter().copied().filter(|x| (low..high).contains(x)).collect();
+        let all = crossings(&other, low, high);
+        assert!(all.len() == expected.len(), "{low} to {high}: {all:?} {expected:?}");
+        assert!(all.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-4), "{all:?} {expected:?}");
+    }
+}

@@ -312,7 +312,9 @@ impl Wanted {
                 }
                 (t, last) = (aim.t, aim.step);
             }
-            (last < CONVERGED * known).then_some((t, merging))
+            // Where two merge, the place of a single one is not known from its error.
+            let resolved = if matches!(kind, Kind::Line(_)) { known } else { reach };
+            (last < CONVERGED * resolved).then_some((t, merging))
         });
         places.next().unwrap_or((from, merging))
     }
