@@ -184,7 +184,8 @@ impl<'a, 'b> Step<'a, 'b> {
         (turned <= TURNED * turn + slack).then_some(corrected)
     }
 
-    /// Gives each state the modes of shafts that the state beside it has more.
+    /// Gives each state the modes of shafts that the state beside it has and it lacks. Only counts are compared: of two lists of
+    /// one length with different members neither gains.
     fn complete(&mut self) {
         let forwards = (1..self.nodes.len()).map(|k| (k - 1, k));
         for (from, to) in forwards.clone().chain(forwards.rev().map(|(k, next)| (next, k))) {
