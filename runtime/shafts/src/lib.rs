@@ -19,7 +19,7 @@ pub use assembly::{Assembly, At, Condensed};
 pub use eigentol_numerics::{Complex, Matrix};
 pub use error::Error;
 pub use gradients::{Form, SpanForm};
-pub use modes::{Found, Mode};
+pub use modes::{Found, Mode, Others};
 pub use motion::Motion;
 pub use pencil::Pencil;
 pub use section::{Line, Number, Section};

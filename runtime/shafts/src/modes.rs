@@ -28,6 +28,17 @@ pub struct Mode {
 /// A mode, and `T` with its derivative at its `s`.
 pub type Found = (Mode, Pencil);
 
+/// Which modes are sought besides those that continue given ones.
+#[derive(Clone, Copy, Debug)]
+pub enum Others<'a> {
+    /// So many of the lowest, if one of those given is no more.
+    WhereOneEnds(usize),
+    /// So many of the lowest.
+    Lowest(usize),
+    /// Those that continue these.
+    Continuing(&'a [Mode]),
+}
+
 /// Steps of inverse iteration before them.
 const TURNS: usize = 4;
 /// Newton steps at most; three are usual from a Krylov space, two from a neighbour.
@@ -87,30 +98,36 @@ impl Assembly {
         Err(Error::NotConverged)
     }
 
-    /// The modes that continue those of a neighbouring speed or design. Where one of these is no more, or `all` are wanted, behind
-    /// them those of the lowest `count` that are new.
+    /// The modes that continue those of a neighbouring speed or design, and `others` behind them.
     ///
     /// # Errors
     /// [`Error::NotConverged`].
-    pub fn continued(&self, from: &[Mode], count: usize, all: bool) -> Result<Vec<Found>, Error> {
+    pub fn continued(&self, from: &[Mode], others: Others<'_>) -> Result<Vec<Found>, Error> {
+        let mut found = self.following(from);
+        let more = match others {
+            Others::WhereOneEnds(_) if found.len() == from.len() => return Ok(found),
+            Others::WhereOneEnds(count) | Others::Lowest(count) => self.modes(count)?,
+            Others::Continuing(beside) => self.following(beside),
+        };
+        let equal = |all: &[Found], mode: &Mode| all.iter().filter(|(other, _)| other.is_near(mode)).count();
+        for own in &more {
+            // Of equal ones any combinations are modes.
+            if equal(&found, &own.0) < equal(&more, &own.0) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
+                found.push(own.clone());
+            }
+        }
+        Ok(found)
+    }
+
+    /// The different oscillations that continue these.
+    fn following(&self, from: &[Mode]) -> Vec<Found> {
         let mut found: Vec<Found> = Vec::new();
         for own in self.refined(from).into_iter().flatten() {
             if self.oscillates(own.0.s) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
                 found.push(own);
             }
         }
-        if found.len() == from.len() && !all {
-            return Ok(found);
-        }
-        let lowest = self.modes(count)?;
-        let equal = |all: &[Found], mode: &Mode| all.iter().filter(|(other, _)| other.is_near(mode)).count();
-        for own in &lowest {
-            // Of equal ones any combinations are modes.
-            if equal(&found, &own.0) < equal(&lowest, &own.0) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
-                found.push(own.clone());
-            }
-        }
-        Ok(found)
+        found
     }
 
     fn oscillates(&self, s: Complex) -> bool {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use eigentol_shafts::{Assembly, Complex, Form, Line, Matrix, Mode, Number, Place, Section, Span};
+use eigentol_shafts::{Assembly, Complex, Form, Line, Matrix, Mode, Number, Others, Place, Section, Span};
 use serde_json::Value;
 
 fn truth(name: &str) -> Value {
@@ -226,6 +226,40 @@ fn a_rotor_of_eighteen_sections() {
         let [low, high] = [0.5 * modes[0].s.im, 1.001 * modes[modes.len() - 1].s.im];
         let within = rotor.assembly.count_within(Complex::new(-300.0, low), Complex::new(300.0, high));
         assert_eq!(within, Some(modes.len()));
+    }
+}
+
+/// At rest each eigenvalue of a round rotor is two, and any combinations are modes.
+#[test]
+fn lists_of_modes_are_joined() {
+    let truth = truth("F10_nelson_unbalance");
+    for (speed, turned) in [(0.0, 0.6), (200.0, 0.0)] {
+        let rotor = Rotor::new(&truth["rotor"], [ISOTROPIC, [0.0; 4]], speed, 1.0, false, 5);
+        let assembly = &rotor.assembly;
+        let all = modes(assembly, 8);
+        let (cos, sin) = (f64::cos(turned), f64::sin(turned));
+        let combined =
+            |x: &[Complex], y: &[Complex], [a, b]: [f64; 2]| x.iter().zip(y).map(|(x, y)| a * x + b * y).collect();
+        let others: Vec<Mode> = (all.chunks(2))
+            .flat_map(|pair| {
+                [[cos, sin], [-sin, cos]].map(|by| Mode {
+                    s: if by[0] > 0.0 { pair[0].s } else { pair[1].s },
+                    right: combined(&pair[0].right, &pair[1].right, by),
+                    left: combined(&pair[0].left, &pair[1].left, by),
+                })
+            })
+            .collect();
+        // Nothing is new, one of each two, and all of half of them.
+        let one_of_each: Vec<Mode> = all.iter().step_by(2).cloned().collect();
+        for own in [&all[..], &one_of_each, &all[..4]] {
+            let joined = assembly.continued(own, Others::Continuing(&others)).unwrap();
+            let mut found: Vec<f64> = joined.iter().map(|(mode, _)| mode.s.im).collect();
+            found.sort_by(f64::total_cmp);
+            assert_eq!(found.len(), all.len(), "{speed}: {found:?}");
+            for (found, mode) in found.iter().zip(&all) {
+                close(*found, mode.s.im, mode.s.im, 1e-9, "joined");
+            }
+        }
     }
 }
 

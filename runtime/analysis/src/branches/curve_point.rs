@@ -8,7 +8,7 @@ use crate::equilibrium::{Equilibrium, SolvedState};
 use crate::error::NotFound;
 use crate::free::FreeDirections;
 use crate::kernels::Linear;
-use crate::modes::{completed, free_pairs, judge_shafts};
+use crate::modes::{completed, free_pairs, joined};
 use crate::{Description, Mode};
 
 /// A regular point of a branch.
@@ -109,10 +109,8 @@ impl Curve<'_> {
     }
 
     /// A point with the modes of shafts that continue those of another.
-    pub(crate) fn judged_beside(&self, mut point: CurvePoint, nearby: &[Mode]) -> CurvePoint {
-        if let Some((_, modes)) = judge_shafts(self.mechanism, &mut point.equilibrium, nearby, true) {
-            point.judged = modes;
-        }
+    pub(crate) fn judged_beside(&self, mut point: CurvePoint, beside: &[Mode]) -> CurvePoint {
+        point.judged = joined(&point.equilibrium, point.judged, beside);
         point
     }
 

@@ -42,7 +42,7 @@ pub use normalisation::{Normalisation, lead};
 #[doc(hidden)]
 pub use pencil::{pencil_slope_times, pencil_times, transposed};
 #[doc(hidden)]
-pub use shafts::{Followed, completed, holds, judge_shafts};
+pub use shafts::{Followed, completed, holds, joined, judge_shafts};
 #[doc(hidden)]
 pub use undamped::undamped;
 pub use whirl::{Character, Kind, Sense, Whirl, Whirls, whirls};
@@ -334,7 +334,7 @@ impl Modes {
     #[inline]
     pub fn solve_judged(&mut self, at: &Equilibrium, judged: Vec<Mode>, nearby: &[Mode]) -> Result<(), ModesFailure> {
         if !at.description.spans.is_empty() {
-            let sought = || Shafts::of(at).ok().flatten()?.modes(at, nearby, false);
+            let sought = || Shafts::of(at).ok().flatten()?.modes(at, nearby, eigentol_shafts::Others::WhereOneEnds);
             self.modes = if judged.is_empty() { sought().ok_or(ModesFailure::Shafts)? } else { judged };
             self.family = Family::General;
             sort_by_frequency(&mut self.modes);

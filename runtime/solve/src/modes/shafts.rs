@@ -8,7 +8,7 @@ use crate::kernels::Kernels;
 use crate::shafts::{Shafts, form, numbers};
 use crate::{Complex, Description, Equilibrium, Stability};
 use eigentol_contract::LineKind;
-use eigentol_shafts::{Line, Pencil};
+use eigentol_shafts::{Line, Others, Pencil};
 
 /// After how many states in succession is asked whether there are others among the lowest.
 const FOLLOWED: usize = 8;
@@ -86,10 +86,24 @@ pub fn completed(state: &Equilibrium, modes: Vec<Mode>) -> Vec<Mode> {
     let known: Vec<Complex> = modes.iter().map(|mode| mode.s).collect();
     match Shafts::of(state) {
         Ok(Some(shafts)) if !modes.is_empty() && !shafts.whole.has_all(&known) => {
-            shafts.modes(state, &modes, true).unwrap_or(modes)
+            shafts.modes(state, &modes, Others::Lowest).unwrap_or(modes)
         }
         _ => modes,
     }
+}
+
+/// The modes of a state of shafts with those that continue others and are not among them.
+#[doc(hidden)]
+#[must_use]
+pub fn joined(state: &Equilibrium, modes: Vec<Mode>, beside: &[Mode]) -> Vec<Mode> {
+    let beside: Vec<_> = beside.iter().map(start).collect();
+    let shafts = Shafts::of(state).ok().flatten();
+    shafts.and_then(|shafts| shafts.modes(state, &modes, |_| Others::Continuing(&beside))).unwrap_or(modes)
+}
+
+/// Where to look for a mode at a neighbouring state.
+fn start(mode: &Mode) -> eigentol_shafts::Mode {
+    eigentol_shafts::Mode { s: mode.s, right: mode.shape.clone(), left: mode.left().into() }
 }
 
 /// The number of modes that are sought, those of lowest frequency, for each shaft.
@@ -113,13 +127,17 @@ fn count(of: &Description) -> usize {
 }
 
 impl Shafts {
-    /// The modes at a state of these shafts: those that continue others, and where one of these is no more, none is given or `all`
-    /// are wanted, the lowest that oscillate too.
-    pub(crate) fn modes(&self, at: &Equilibrium, nearby: &[Mode], all: bool) -> Option<Vec<Mode>> {
-        let start =
-            |mode: &Mode| eigentol_shafts::Mode { s: mode.s, right: mode.shape.clone(), left: mode.left().into() };
-        let starts: Vec<eigentol_shafts::Mode> = nearby.iter().map(start).collect();
-        let found = self.whole.continued(&starts, count(&at.description), all || starts.is_empty()).ok()?;
+    /// The modes at a state of these shafts: those that continue others, and more, of as many as are usual.
+    pub(crate) fn modes<'a>(
+        &self,
+        at: &Equilibrium,
+        nearby: &[Mode],
+        others: impl FnOnce(usize) -> Others<'a>,
+    ) -> Option<Vec<Mode>> {
+        let starts: Vec<_> = nearby.iter().map(start).collect();
+        let count = count(&at.description);
+        let others = if starts.is_empty() { Others::Lowest(count) } else { others(count) };
+        let found = self.whole.continued(&starts, others).ok()?;
         let (mut modes, within) = (Vec::new(), self.whole.terms());
         let (size, leading) = Normalisation::of(&at.description);
         for (own, Pencil { matrix, slope }) in found {
@@ -191,7 +209,7 @@ pub fn judge_shafts(
         return Some((Stability::Undecided, Vec::new()));
     }
     let Some(shafts) = Shafts::of(state).ok().flatten() else { return Some((Stability::Undecided, Vec::new())) };
-    let modes = shafts.modes(state, nearby, false).unwrap_or_default();
+    let modes = shafts.modes(state, nearby, Others::WhereOneEnds).unwrap_or_default();
     let stability = if modes.is_empty() { Stability::Undecided } else { stability(state, &shafts, &modes) };
     Some((stability, modes))
 }

@@ -390,11 +390,13 @@ impl Division {
             k += 1;
         }
         // Rounding may part the places at which one number is within its error.
-        let touches: Vec<(Kind, f64)> =
-            (self.events.iter()).filter(|event| event.rises.is_none()).map(|event| (event.kind, event.t)).collect();
+        let known = self.events.clone();
         self.events.retain(|event| {
-            let earlier = |(kind, t): &(Kind, f64)| *kind == event.kind && *t < event.t && event.t - *t < TOUCH;
-            event.rises.is_some() || !touches.iter().any(earlier)
+            let is_rounding = |other: &Found| match other.rises {
+                Some(_) => (event.t - other.t).abs() <= other.sides[1].t - other.sides[0].t,
+                None => other.t < event.t && event.t - other.t < TOUCH,
+            };
+            event.rises.is_some() || !known.iter().any(|other| other.kind == event.kind && is_rounding(other))
         });
     }
 

@@ -10,6 +10,7 @@ use super::spectrum::{Root, Spectrum};
 use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint};
 use crate::constraints::Structure;
 use crate::sweep::condition::{Change, Condition};
+
 use crate::{Complex, Mode, Stability, Vector, modes};
 
 /// A step from one station of a branch to the next, and the states solved on it.
@@ -130,7 +131,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let rate = self.rate(&point)?;
         self.nodes.insert(index, Rc::new(self.question.node(point, t, rate).ok()?));
         if !self.nodes[index].point.equilibrium.spans.is_empty() {
-            self.complete();
+            self.complete(index);
         }
         Some(self.nodes[index].clone())
     }
@@ -184,22 +185,36 @@ impl<'a, 'b> Step<'a, 'b> {
         (turned <= TURNED * turn + slack).then_some(corrected)
     }
 
-    /// Gives each state the modes of shafts that the state beside it has and it lacks. Only counts are compared: of two lists of
-    /// one length with different members neither gains.
-    fn complete(&mut self) {
-        let forwards = (1..self.nodes.len()).map(|k| (k - 1, k));
-        for (from, to) in forwards.clone().chain(forwards.rev().map(|(k, next)| (next, k))) {
-            let [richer, node] = [from, to].map(|k| self.nodes[k].clone());
-            if richer.modes.modes.len() <= node.modes.modes.len() {
-                continue;
-            }
-            let point = self.curve.judged_beside(node.point.clone(), &richer.modes.modes);
-            let again = self.rate(&point).and_then(|rate| self.question.node(point, node.spectrum.t, rate).ok());
-            if let Some(again) = again.filter(|again| again.modes.modes.len() > node.modes.modes.len()) {
-                self.nodes[to] = Rc::new(again);
-                self.gained = true;
+    /// Hands modes of shafts on to and from the state at a position, and from each that gains some to the next.
+    fn complete(&mut self, position: usize) {
+        for from in [position.checked_sub(1), Some(position + 1)].into_iter().flatten() {
+            self.hand(from, position);
+        }
+        let ways: [Vec<usize>; 2] = [(0..position).rev().collect(), (position + 1..self.nodes.len()).collect()];
+        for way in ways {
+            let mut from = position;
+            for to in way {
+                if !self.hand(from, to) {
+                    break;
+                }
+                from = to;
             }
         }
+    }
+
+    /// Gives a state the modes that a state beside it has and it lacks; whether there are any.
+    fn hand(&mut self, from: usize, to: usize) -> bool {
+        let (Some(from), node) = (self.nodes.get(from), &self.nodes[to]) else { return false };
+        let found = modes::match_with_assurance(&from.modes, &node.modes, &node.point.equilibrium.linear);
+        if found.iter().all(Option::is_some) {
+            return false;
+        }
+        let point = self.curve.judged_beside(node.point.clone(), &from.modes.modes);
+        let gains = point.judged.len() > node.modes.modes.len();
+        let again = self.rate(&point).filter(|_| gains);
+        let again = again.and_then(|rate| self.question.node(point, node.spectrum.t, rate).ok());
+        self.gained |= again.is_some();
+        again.map(|again| self.nodes[to] = Rc::new(again)).is_some()
     }
 
     /// The events of the step, in order; `located` are the special points that the walk has found on it, `outer` whether
