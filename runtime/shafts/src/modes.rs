@@ -68,6 +68,8 @@ const SAME: f64 = 1e-7;
 const BLENDED: f64 = 1e-5;
 /// Rounding of an eigenvalue in units of that of the terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// What is left of a unit vector without known modes, above which it is none of them.
+const NEW: f64 = 0.05;
 /// How far beside an eigenvalue another one near it is looked for, as a part of it.
 const APART: f64 = 1e-5;
 /// What is left of a unit vector without the known modes, below which no other is near.
@@ -109,11 +111,9 @@ impl Assembly {
             Others::WhereOneEnds(count) | Others::Lowest(count) => self.modes(count)?,
             Others::Continuing(beside) => self.following(beside),
         };
-        let equal = |all: &[Found], mode: &Mode| all.iter().filter(|(other, _)| other.is_near(mode)).count();
-        for own in &more {
-            // Of equal ones any combinations are modes.
-            if equal(&found, &own.0) < equal(&more, &own.0) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
-                found.push(own.clone());
+        for own in more {
+            if own.0.is_new(&found) {
+                found.push(own);
             }
         }
         Ok(found)
@@ -123,7 +123,7 @@ impl Assembly {
     fn following(&self, from: &[Mode]) -> Vec<Found> {
         let mut found: Vec<Found> = Vec::new();
         for own in self.refined(from).into_iter().flatten() {
-            if self.oscillates(own.0.s) && !found.iter().any(|(other, _)| other.is_same(&own.0)) {
+            if self.oscillates(own.0.s) && own.0.is_new(&found) {
                 found.push(own);
             }
         }
@@ -268,15 +268,20 @@ impl Assembly {
                 starts.push(Mode { s: mode.s + aside, right, left });
             }
         }
+        let once = self.refined(&starts).into_iter().zip(&starts).filter_map(|(found, start)| {
+            let stays = |(mode, _): &Found| near(start, mode);
+            let found = found.filter(stays).or_else(|| self.with_all_unknowns(start, 2).filter(stays));
+            found.map(|(mode, _)| mode)
+        });
         // Once more: beside an eigenvalue already the first step is small.
-        let once: Vec<Mode> = self.refined(&starts).into_iter().flatten().map(|(mode, _)| mode).collect();
-        let mut others: Vec<Found> = Vec::new();
+        let once: Vec<Mode> = once.collect();
+        let mut all = modes.to_vec();
         for found in self.refined(&once).into_iter().flatten() {
-            if !modes.iter().chain(&others).any(|(known, _)| known.is_same(&found.0)) {
-                others.push(found);
+            if found.0.is_new(&all) {
+                all.push(found);
             }
         }
-        others
+        all.split_off(modes.len())
     }
 
     /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span.
@@ -534,12 +539,23 @@ fn normalised(x: &mut [Complex]) -> f64 {
 }
 
 impl Mode {
-    /// Whether two modes are one.
-    #[must_use]
-    pub fn is_same(&self, other: &Self) -> bool {
-        let product: Complex = self.right.iter().zip(&other.right).map(|(a, b)| a.conj() * b).sum();
-        let sizes = [self, other].map(|mode| mode.right.iter().map(Complex::norm_sqr).sum::<f64>().sqrt());
-        self.is_near(other) && product.norm() > 0.999 * sizes[0] * sizes[1]
+    /// Whether it is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.
+    fn is_new(&self, among: &[Found]) -> bool {
+        let mut known: Vec<Vector<Complex>> = Vec::new();
+        let rest = |x: &Vector<Complex>, known: &[Vector<Complex>]| {
+            let mut rest = x.clone();
+            normalised(&mut rest);
+            for direction in known {
+                let share: Complex = direction.iter().zip(&rest).map(|(a, b)| a.conj() * b).sum();
+                rest.iter_mut().zip(direction).for_each(|(x, along)| *x -= share * along);
+            }
+            let size = normalised(&mut rest).recip();
+            (size > NEW).then_some(rest)
+        };
+        for (other, _) in among.iter().filter(|(other, _)| other.is_near(self)) {
+            known.extend(rest(&other.right, &known));
+        }
+        rest(&self.right, &known).is_some()
     }
 
     fn is_near(&self, other: &Self) -> bool {

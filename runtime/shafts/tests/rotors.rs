@@ -229,6 +229,26 @@ fn a_rotor_of_eighteen_sections() {
     }
 }
 
+/// Stiff supports leave rounding in what tells a third equal mode from combinations of two.
+#[test]
+fn a_round_shaft_at_rest_has_each_mode_twice() {
+    for (stiff, pieces) in [(1e9, 8), (1e11, 16), (1e12, 16), (1e14, 16)] {
+        let (length, stiffness, mass) = (1.0 / f64::from(pieces), 1e4, 10.0);
+        let section =
+            Section { length, stiffness, shear: 0.0, mass, rotary: 6.25e-3, lag: 0.0, tension: 0.0, drag: 0.0 };
+        let end = |base: usize| -> [Place; 4] { [0, 1, 2, 3].map(|k| Some((base + k, 1.0))) };
+        let sections = (0..pieces).map(|_| (section, 2)).collect();
+        let span = Span { line: Line::Slender, speed: 0.0, sections, ends: [end(0), end(4)] };
+        let zero = Matrix::zeros(8, 8);
+        let held = Matrix::from_fn(8, 8, |i, j| if i == j { stiff } else { 0.0 });
+        let found = modes(&Assembly::new(vec![span], [zero.clone(), zero, held], 4).unwrap(), 12);
+        for (pair, beta) in found.chunks(2).zip([4.730041, 7.853205, 10.995608, 14.137165]) {
+            let expected: f64 = beta * beta * f64::sqrt(stiffness / mass);
+            pair.iter().for_each(|mode| close(mode.s.im, expected, expected, 0.1, "clamped, without rotary inertia"));
+        }
+    }
+}
+
 /// At rest each eigenvalue of a round rotor is two, and any combinations are modes.
 #[test]
 fn lists_of_modes_are_joined() {

@@ -32,6 +32,9 @@ const STEPS: f64 = 64.0;
 /// Fewest and most of them.
 const FEWEST: usize = 4;
 const MOST_STEPS: usize = 64;
+/// Parts of a shaft at whose ends torque couples the two planes: what that does to the lowest frequencies is wrong by three
+/// thousandths of itself at most, sixteen times as much with half as many.
+const TWISTED: usize = 8;
 /// Most elements of a whole shaft.
 const MOST: usize = 4096;
 
@@ -60,9 +63,28 @@ impl Resolver<'_> {
         let arguments = self.arguments(&shaft.shape, &SIGNATURE);
         let declared = self.shaft_of(body, shaft, &arguments);
         let is_right = declared.is_some();
-        let last = declared.as_ref().map_or(1, Declared::last);
-        self.stations.declare(&body.name, Flexible::Shaft(declared.map(Box::new)), [last]);
+        let used = declared.as_ref().map_or(vec![1], |declared| self.places_of(declared));
+        self.stations.declare(&body.name, Flexible::Shaft(declared.map(Box::new)), used);
         is_right.then_some(())
+    }
+
+    /// The stations that a shaft has in any case: its last, and where torque acts those nearest to equal parts.
+    fn places_of(&self, declared: &Declared) -> Vec<usize> {
+        let last = declared.last();
+        if declared.torque == Expr::Number(0.0) {
+            return vec![last];
+        }
+        let lengths = declared.rows.iter().map(|row| self.nominal_of(&row.length));
+        let ends: Vec<f64> =
+            lengths.scan(0.0, |end, length| Some(*end + length).inspect(|next| *end = *next)).collect();
+        let nearest = |part: usize| {
+            let wanted = ends[last - 1] * part as f64 / TWISTED as f64;
+            let away = |place: &usize| (ends[*place - 1] - wanted).abs();
+            (1..=last).min_by(|a, b| away(a).total_cmp(&away(b)))
+        };
+        let mut places: Vec<usize> = (1..=TWISTED).filter_map(nearest).collect();
+        places.dedup();
+        places
     }
 
     fn shaft_of(&mut self, body: &ast::Body, shaft: &Term, given: &Arguments<'_>) -> Option<Declared> {
@@ -95,6 +117,7 @@ impl Resolver<'_> {
         let origin = self.origin_of(shaft, "the place of a shaft's root", turned);
         let drag = self.number_or_none(given, "drag", Dimension::new(-1, 1, -1), false);
         let tension = self.number_or_none(given, "tension", Dimension::FORCE, true);
+        let torque = self.number_or_none(given, "torque", Dimension::MOMENT, true);
         let material = self.material_of(name, given);
         let coefficient = match given.get("shear_coefficient") {
             Some(value) => self.scalar_of(value, Expected::ratio(), "`shear_coefficient`").map(|number| {
@@ -135,6 +158,7 @@ impl Resolver<'_> {
             lag: lag?,
             drag: drag?,
             tension: tension?,
+            torque: torque?,
             rows: sections,
             bending: bending.then_some(bends),
             twists,

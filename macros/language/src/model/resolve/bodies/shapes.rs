@@ -148,6 +148,7 @@ pub(in crate::model::resolve) const SHAFT: Row = Row::new(
     "lag",
     "drag",
     "tension",
+    "torque",
     "elements",
 ])
 .refusing(&[

@@ -65,6 +65,30 @@ impl Resolver<'_> {
         }
     }
 
+    /// The energy of a torque `T` along the cubic through both ends, `T/2` times the integral of `y'' z' - z'' y'`: at the ends of
+    /// the shaft it turns half with these, and so does no work on a way that closes (semitangential: H. Ziegler, "Principles
+    /// of Structural Stability", 1968).
+    pub(super) fn under_torque(&mut self, name: &Ident, span: &Span, torque: &Expr) -> ForceLaw {
+        let length = span.sections.iter().fold(ZERO, |length, section| add(length, section[0].clone()));
+        let length = self.shared_of_shaft(name, length);
+        let ends = [0, 1].map(|end| Self::motions(span, end));
+        let scaled = |factor: f64, x: Expr| multiply(Expr::Number(factor), x);
+        // By how much the slope changes, and the mean of all along it and of its ends.
+        let [y, z] = [0, 2].map(|plane| {
+            let [moves, slopes] = [plane, plane + 1].map(|k| ends.each_ref().map(|end| end[k].clone()));
+            let [[w, next], [first, last]] = [moves, slopes];
+            let of_ends = scaled(0.5, add(first.clone(), last.clone()));
+            [subtract(last, first), divide(subtract(next, w), length.clone()), of_ends]
+        });
+        // Within, it is a parabola.
+        let turned = |[change, ..]: &[Expr; 3], [_, mean, of_ends]: &[Expr; 3]| {
+            multiply(change.clone(), subtract(scaled(2.0, mean.clone()), of_ends.clone()))
+        };
+        let integral = subtract(turned(&y, &z), turned(&z, &y));
+        let energy = multiply(scaled(0.5, torque.clone()), integral);
+        ForceLaw::Potential { energy }
+    }
+
     fn motions(span: &Span, end: usize) -> Vec<Expr> {
         let own = span.ends[end].iter();
         own.map(|(id, factor)| multiply(Expr::Number(*factor), Expr::Coordinate(*id))).collect()

@@ -13,6 +13,7 @@ pub(in crate::model::resolve) struct Declared {
     pub(super) lag: Expr,
     pub(super) drag: Expr,
     pub(super) tension: Expr,
+    pub(super) torque: Expr,
     pub(super) rows: Vec<Row>,
     /// What bends, and whether it twists and stretches.
     pub(super) bending: Option<Line>,

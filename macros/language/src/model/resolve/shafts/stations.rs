@@ -231,8 +231,12 @@ impl Resolver<'_> {
                 (Line::Bar, _) => [dot(gravity, &declared.axes[0]), zero()],
                 _ => [1, 2].map(|axis| dot(gravity, &declared.axes[axis])),
             };
-            let laws = self.at_rest(name, &span, weight).into_iter().chain(self.lumped(name, &span));
-            forces.extend(laws.map(|law| Force { name: name.clone(), law, of_every: true }));
+            let mut laws = self.at_rest(name, &span, weight);
+            laws.extend(self.lumped(name, &span));
+            if line != Line::Bar && declared.torque != zero() {
+                laws.push(self.under_torque(name, &span, &declared.torque));
+            }
+            forces.extend(laws.into_iter().map(|law| Force { name: name.clone(), law, of_every: true }));
             spans.push(span);
         }
         spans
