@@ -89,19 +89,19 @@ fn translated(file: &Map<String, Value>, name: Option<&str>) -> Result<Rotor, St
         }
         table += "],";
     }
-    // Layers from one node share one motion: their forces add.
-    let force = |layers: &Vec<Element<'_>>| -> Result<f64, String> {
-        layers.iter().try_fold(0.0, |sum, layer| Ok(sum + layer.list("axial_force")?.iter().sum::<f64>()))
-    };
-    let forces = rows.values().map(force).collect::<Result<Vec<f64>, String>>()?;
-    let tension = match forces[0] {
-        same if forces.iter().any(|other| *other != same) => {
-            notes.push("axial forces that differ from element to element are left out".to_owned());
-            String::new()
+    // Layers from one node share one motion: their forces and torques add.
+    let mut loads = String::new();
+    for (field, word, unit) in [("axial_force", "tension", "N"), ("torque", "torque", "N*m")] {
+        let of_row = |layers: &Vec<Element<'_>>| -> Result<f64, String> {
+            layers.iter().try_fold(0.0, |sum, layer| Ok(sum + layer.list(field)?.iter().sum::<f64>()))
+        };
+        let all = rows.values().map(of_row).collect::<Result<Vec<f64>, String>>()?;
+        if all.iter().any(|other| *other != all[0]) {
+            notes.push(format!("`{field}` that differs from element to element is left out"));
+        } else if all[0] != 0.0 {
+            loads += &format!(", {word}: {} {unit}", all[0]);
         }
-        0.0 => String::new(),
-        same => format!(", tension: {same} N"),
-    };
+    }
     let slender = of("Shaft").iter().all(|layer| layer.fields.get("shear_effects") == Some(&Value::Bool(false)));
     let on_shaft = |node: usize| node.checked_sub(first).filter(|station| *station < places.len());
     let mut supports: BTreeMap<usize, Support> = BTreeMap::new();
@@ -179,7 +179,7 @@ fn translated(file: &Map<String, Value>, name: Option<&str>) -> Result<Rotor, St
 {}    gravity 9.81 m/s^2 along -z;
 
     body rotor: shaft(along: x, up: z, sections: [{table}
-    ]{slender}{tension}) spinning at speed;
+    ]{slender}{loads}) spinning at speed;
 {rest}}}\n",
         materials.declared()
     );
@@ -268,9 +268,6 @@ impl Element<'_> {
     fn left_out(&self) -> Result<Vec<String>, String> {
         let is_false = |field: &str| self.fields.get(field) == Some(&Value::Bool(false));
         let mut all = Vec::new();
-        if self.any(&["torque"])? {
-            all.push("torques are left out".to_owned());
-        }
         if self.any(&["alpha", "beta"])? {
             all.push("proportional damping of the shaft is left out: give `lag` or `drag`".to_owned());
         }

@@ -197,6 +197,8 @@ fn other_words_of_ross_are_read() {
     let plain = run_with_input(&["import", "-"], &text);
     let other = run_with_input(&["import", "-"], &text.replace("frequency = [", "speed = ["));
     assert_eq!((other.code, &other.out), (0, &plain.out));
+    let twisted = run_with_input(&["import", "-"], &text.replace("torque = 0", "torque = 5e3"));
+    assert!(twisted.out.contains(", torque: 5000 N*m)"), "{}", twisted.out);
     let axial = run_with_input(&["import", "-"], &text.replace("kzz = [ 0,]", "kzz = [ 7.0,]"));
     assert_eq!((axial.code, &axial.out), (0, &plain.out));
     assert!(axial.err.contains("note: the stiffness and damping along the axis of `"), "{}", axial.err);

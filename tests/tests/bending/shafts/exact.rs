@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use eigentol::forced::Measure;
 use eigentol::modes::Sense;
-use eigentol::{Complex, Input, Output, Study};
+use eigentol::{Complex, DesignVariable, Input, Output, Stability, Study};
 use eigentol_interpreter::Interpreted;
 use serde_json::Value;
 
@@ -134,6 +134,68 @@ fn a_shaft_under_tension() {
             }
             assert!(found > 0, "{force} {number} {direction}");
         }
+    }
+}
+
+/// A beam under a moment at its end, which knows nothing of torque, with springs that make a right-handed rotor of it; and the torque
+/// at which a clamped shaft with a free end coils, `pi E I / L` (H. Ziegler).
+#[test]
+fn a_shaft_under_torque() {
+    let rows = ["[1 m / 12, 100 mm]"; 12].join(", ");
+    let steel = "material own: density 1273.239544735 kg/m^3, modulus 2.037183271576 GPa, poisson 0.3;";
+    let shaft = format!(
+        "{steel} body rotor: shaft(along: x, up: z, material: own, shear: 0, sections: [{rows}], torque: torque);"
+    );
+    let clamped = "point root: rotor at root; body arm: massless; joint weld: fixed from rotor to arm;
+        point ahead: arm at [1 m, 0, 0];
+        constraint held_y: equation(zero: position(root).y); constraint held_z: equation(zero: position(root).z);
+        constraint turn_y: equation(zero: position(ahead).z); constraint turn_z: equation(zero: position(ahead).y);";
+    let supports = |first: &str, second: &str| {
+        format!(
+            "point end: ground at [1 m, 0, 0]; point tip: rotor at tip;
+            force holds: bushing(from: end, to: tip, stiffness: [0, 1, 1] GN/m, turning_stiffness: [0, 1, 1] GN*m);
+            point a: ground at [1 m / 3, 0, 0] rotated(x, 0.3 rad); point on_a: rotor at {first};
+            point b: ground at [2 m / 3, 0, 0] rotated(x, 1.4 rad); point on_b: rotor at {second};
+            force spring_a: bushing(from: a, to: on_a, stiffness: [0, 300, 0] kN/m);
+            force spring_b: bushing(from: b, to: on_b, stiffness: [0, 300, 0] kN/m);"
+        )
+    };
+    let twisted = format!(
+        "mechanism Twisted {{ design torque = 0 N*m; {shaft} {clamped} {} }}",
+        supports("station 4", "station 8")
+    );
+    let beam = format!(
+        "mechanism Beam {{ design torque = 0 N*m;
+            body rotor: beam(length: 1 m, along: x, up: z, bending: 7, torsion: 2, mass_per_length: 10 kg/m,
+                inertia_y: 6.25e-3 kg*m, inertia_z: 6.25e-3 kg*m, stiffness_y: 1e4 N*m^2, stiffness_z: 1e4 N*m^2,
+                torsion_stiffness: 1e9 N*m^2);
+            joint clamp: fixed from ground to rotor; {}
+            force turns: load(at: tip, moment: [torque, 0, 0]); }}",
+        supports("1/3 length", "2/3 length")
+    );
+    let [twisted, beam] = [twisted, beam].map(|text| study(&text, None));
+    let lowest = |study: &Study<Interpreted>, torque: f64| {
+        let study = study.clone().design(DesignVariable::new(0), torque);
+        let modes = study.modes().expect("modes").modes;
+        let all = study.sensitivities().expect("derivatives").modes;
+        let by_torque = |mode: usize| all[mode].s().expect("derivatives").by_design[0].im;
+        (0..2).map(|mode| (modes[mode].s.im, by_torque(mode))).collect::<Vec<_>>()
+    };
+    let at_rest = lowest(&beam, 0.0);
+    for torque in [8e3, -20e3] {
+        for ((own, of_beam), plain) in lowest(&twisted, torque).iter().zip(lowest(&beam, torque)).zip(&at_rest) {
+            // Of what torque does three thousandths, and what is beside four in the bending of the beam.
+            let most = 0.02 * (of_beam.0 - plain.0).abs() + 5e-5 * plain.0;
+            assert!((own.0 - of_beam.0).abs() < most, "{torque}: {own:?} {of_beam:?}");
+            assert!((own.1 - of_beam.1).abs() < 0.02 * of_beam.1.abs(), "{torque}: {own:?} {of_beam:?}");
+        }
+    }
+    let free = format!("mechanism Free {{ design torque = 0 N*m; {shaft} {clamped} }}");
+    let coils = core::f64::consts::PI * 1e4;
+    for (torque, gives_way) in [(0.999 * coils, false), (1.001 * coils, true)] {
+        let state = study(&free, None).design(DesignVariable::new(0), torque).equilibrium().expect("a state");
+        let stability = state.stability;
+        assert_eq!(matches!(stability, Stability::Divergent { .. }), gives_way, "{torque}: {stability:?}");
     }
 }
 
