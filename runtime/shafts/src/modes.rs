@@ -112,7 +112,7 @@ impl Assembly {
             Others::Continuing(beside) => self.following(beside),
         };
         for own in more {
-            if own.0.is_new(&found) {
+            if self.is_new(&own.0, &found) {
                 found.push(own);
             }
         }
@@ -123,11 +123,35 @@ impl Assembly {
     fn following(&self, from: &[Mode]) -> Vec<Found> {
         let mut found: Vec<Found> = Vec::new();
         for own in self.refined(from).into_iter().flatten() {
-            if self.oscillates(own.0.s) && own.0.is_new(&found) {
+            if self.oscillates(own.0.s) && self.is_new(&own.0, &found) {
                 found.push(own);
             }
         }
         found
+    }
+
+    /// Whether two eigenvalues are equal, as far as the rounding of the terms lets one see, which is more for slow ones.
+    fn are_equal(&self, a: &Mode, b: &Mode) -> bool {
+        (a.s - b.s).norm() < jitter(a.s, self.terms()) * a.s.norm()
+    }
+
+    /// Whether it is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.
+    fn is_new(&self, mode: &Mode, among: &[Found]) -> bool {
+        let mut known: Vec<Vector<Complex>> = Vec::new();
+        let rest = |x: &Vector<Complex>, known: &[Vector<Complex>]| {
+            let mut rest = x.clone();
+            normalised(&mut rest);
+            for direction in known {
+                let share: Complex = direction.iter().zip(&rest).map(|(a, b)| a.conj() * b).sum();
+                rest.iter_mut().zip(direction).for_each(|(x, along)| *x -= share * along);
+            }
+            let size = normalised(&mut rest).recip();
+            (size > NEW).then_some(rest)
+        };
+        for (other, _) in among.iter().filter(|(other, _)| self.are_equal(mode, other)) {
+            known.extend(rest(&other.right, &known));
+        }
+        rest(&mode.right, &known).is_some()
     }
 
     fn oscillates(&self, s: Complex) -> bool {
@@ -185,7 +209,8 @@ impl Assembly {
                 continue;
             };
             // Both of two equal ones are found with the first.
-            if wanted(mode.s) && !modes.iter().any(|(other, _)| other.is_near(&mode)) {
+            let is_known = modes.iter().any(|(other, _)| other.is_near(&mode)) || !self.is_new(&mode, &modes);
+            if wanted(mode.s) && !is_known {
                 modes.push((mode, pencil));
             }
         }
@@ -277,7 +302,7 @@ impl Assembly {
         let once: Vec<Mode> = once.collect();
         let mut all = modes.to_vec();
         for found in self.refined(&once).into_iter().flatten() {
-            if found.0.is_new(&all) {
+            if self.is_new(&found.0, &all) {
                 all.push(found);
             }
         }
@@ -539,25 +564,6 @@ fn normalised(x: &mut [Complex]) -> f64 {
 }
 
 impl Mode {
-    /// Whether it is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.
-    fn is_new(&self, among: &[Found]) -> bool {
-        let mut known: Vec<Vector<Complex>> = Vec::new();
-        let rest = |x: &Vector<Complex>, known: &[Vector<Complex>]| {
-            let mut rest = x.clone();
-            normalised(&mut rest);
-            for direction in known {
-                let share: Complex = direction.iter().zip(&rest).map(|(a, b)| a.conj() * b).sum();
-                rest.iter_mut().zip(direction).for_each(|(x, along)| *x -= share * along);
-            }
-            let size = normalised(&mut rest).recip();
-            (size > NEW).then_some(rest)
-        };
-        for (other, _) in among.iter().filter(|(other, _)| other.is_near(self)) {
-            known.extend(rest(&other.right, &known));
-        }
-        rest(&self.right, &known).is_some()
-    }
-
     fn is_near(&self, other: &Self) -> bool {
         (self.s - other.s).norm() < SAME * self.s.norm()
     }

@@ -6,7 +6,6 @@ use quote::quote;
 use super::tolerance;
 use crate::base::names::{flattened, written};
 use crate::mechanics::{self, Damping, Functions, Role, Unknown, resolved_modes};
-use crate::model::exchanged::Exchanged;
 use crate::model::mechanism::{Line, Mechanism, Unit};
 use crate::program::Program;
 
@@ -152,21 +151,21 @@ fn unit(unit: &Unit) -> TokenStream {
 }
 
 /// What rustc warns of at the declaration: an unread local variable for every input and design variable that nothing refers to, and
-/// the use of a deprecated constant for every beam whose stiffness seems to be exchanged. The usual attributes silence
+/// the use of a deprecated constant for everything that seems not to be meant. The usual attributes silence
 /// both. The functions shadow constants of the same names, which `let` would otherwise match.
 pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
     let names: Vec<_> = mechanism.unused().collect();
-    let exchanged = mechanism.exchanged();
-    if names.is_empty() && exchanged.is_empty() {
+    let doubts = mechanism.doubts();
+    if names.is_empty() && doubts.is_empty() {
         return TokenStream::new();
     }
     let plain = |name: &Ident, span| Ident::new(&flattened(&name.to_string()), span);
     let hide = |name: &Ident| plain(name, Span::call_site());
     let hidden = names.iter().map(|name| hide(name));
     let names = names.iter().map(|name| plain(name, name.span()));
-    let beams: Vec<_> = exchanged.iter().map(|x| plain(&x.beam, x.beam.span())).collect();
-    let constants = beams.iter().map(hide);
-    let notes = exchanged.iter().map(|x| text(format!("{}; {}", x.message, Exchanged::HELP)));
+    let doubtful: Vec<_> = doubts.iter().map(|x| plain(&x.name, x.name.span())).collect();
+    let constants = doubtful.iter().map(hide);
+    let notes = doubts.iter().map(|x| text(format!("{}; {}", x.message, x.help)));
     let levels = ["allow", "warn", "deny", "forbid"];
     let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));
     let levels = mechanism.attributes.iter().filter(is_level);
@@ -178,7 +177,7 @@ pub(super) fn warnings(mechanism: &Mechanism) -> TokenStream {
             #(#[allow(dead_code, non_snake_case)] fn #hidden() {})*
             #(#[allow(non_snake_case)] let #names = 0;)*
             #(#[allow(non_upper_case_globals)] #[deprecated(note = #notes)] const #constants: () = ();)*
-            #(let _ = #beams;)*
+            #(let _ = #doubtful;)*
         };
     }
 }

@@ -2,9 +2,9 @@
 
 pub mod beam;
 pub mod constraint;
+pub mod doubts;
 pub mod elements;
 pub mod evaluate;
-pub mod exchanged;
 pub mod excitation;
 pub mod expression;
 pub mod inertia;

@@ -3,13 +3,12 @@
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Meta, Token};
 
-use super::exchanged::Exchanged;
 use super::mechanism::Mechanism;
 use crate::mistakes::{Mistake, mistake};
 
 impl Mechanism {
     /// The warnings that rustc gives if the declaration is written in a macro: inputs and design variables that nothing refers to, and
-    /// beams whose stiffness seems to be [exchanged](Exchanged). A leading underscore or an attribute marks what is meant.
+    /// [what seems not to be meant](Self::doubts). A leading underscore or an attribute marks what is meant.
     ///
     /// ```
     /// use eigentol_language::mistakes::{Mistakes, tokens};
@@ -30,12 +29,12 @@ impl Mechanism {
             let help = format!("if this is intentional, prefix it with an underscore: `_{plain}`");
             (!plain.starts_with('_')).then(|| mistake((span, span), message, Some(help)))
         });
-        let exchanged = self.exchanged().into_iter().map(|item| {
-            let span = item.beam.span();
-            mistake((span, span), item.message, Some(Exchanged::HELP.to_owned()))
+        let doubts = self.doubts().into_iter().map(|doubt| {
+            let span = doubt.name.span();
+            mistake((span, span), doubt.message, Some(doubt.help.to_owned()))
         });
         let told = |lints: &[&str]| !is_allowed(&self.attributes, lints);
-        unused.filter(|_| told(&UNUSED)).chain(exchanged.filter(|_| told(&DEPRECATED))).collect()
+        unused.filter(|_| told(&UNUSED)).chain(doubts.filter(|_| told(&DEPRECATED))).collect()
     }
 }
 
