@@ -197,8 +197,14 @@ fn other_words_of_ross_are_read() {
     let plain = run_with_input(&["import", "-"], &text);
     let other = run_with_input(&["import", "-"], &text.replace("frequency = [", "speed = ["));
     assert_eq!((other.code, &other.out), (0, &plain.out));
-    let twisted = run_with_input(&["import", "-"], &text.replace("torque = 0", "torque = 5e3"));
-    assert!(twisted.out.contains(", torque: 5000 N*m)"), "{}", twisted.out);
+    // Element 6 is a layer around element 3.
+    let twisted = text.replace("torque = 0", "torque = 5e3");
+    let differs = run_with_input(&["import", "-"], &twisted);
+    assert!(differs.err.contains("`torque` that differs from element to element is left out"), "{}", differs.err);
+    let (before, layer) = twisted.split_at(twisted.find("Element 6\"]").unwrap());
+    let same =
+        run_with_input(&["import", "-"], &format!("{before}{}", layer.replacen("torque = 5e3", "torque = 0", 1)));
+    assert!(same.out.contains(", torque: 5000 N*m)"), "{}", same.out);
     let axial = run_with_input(&["import", "-"], &text.replace("kzz = [ 0,]", "kzz = [ 7.0,]"));
     assert_eq!((axial.code, &axial.out), (0, &plain.out));
     assert!(axial.err.contains("note: the stiffness and damping along the axis of `"), "{}", axial.err);
