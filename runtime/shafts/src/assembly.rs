@@ -84,11 +84,13 @@ impl Assembly {
         &self.spans
     }
 
-    /// The sum of the stiffnesses of the elements of a span over its mass, the greatest of all, 1/s^2: so large are the terms,
-    /// beside the square of an eigenvalue, that cancel between its ends.
+    /// The sum of the stiffnesses of the elements of spans that meet at stations over their mass, the greatest of all, 1/s^2: so
+    /// large are the terms, beside the square of an eigenvalue, that cancel between the ends of elements. A short element is stiff,
+    /// and what it leaves by rounding moves the mass of all that it is joined to.
     #[must_use]
     pub fn terms(&self) -> f64 {
-        let of_span = |span: &Span| {
+        let mut joined: Vec<(Line, Vec<usize>, [f64; 2])> = Vec::new();
+        for span in &self.spans {
             let each = (0..span.sections.len()).map(|k| {
                 let (own, pieces) = (span.element(k), span.sections[k].1 as f64);
                 let stiffness = match span.line {
@@ -98,10 +100,19 @@ impl Assembly {
                 };
                 [pieces * stiffness, pieces * own.mass * own.length]
             });
-            let [stiffness, mass] = each.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-            stiffness / mass
-        };
-        self.spans.iter().map(of_span).fold(0.0, f64::max)
+            let mut sums = each.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+            let mut unknowns: Vec<usize> = span.ends.iter().flatten().flatten().map(|(unknown, _)| *unknown).collect();
+            joined.retain(|(line, own, [stiffness, mass])| {
+                let meets = *line == span.line && own.iter().any(|unknown| unknowns.contains(unknown));
+                if meets {
+                    unknowns.extend(own);
+                    sums = [sums[0] + stiffness, sums[1] + mass];
+                }
+                !meets
+            });
+            joined.push((span.line, unknowns, sums));
+        }
+        joined.iter().map(|(_, _, [stiffness, mass])| stiffness / mass).fold(0.0, f64::max)
     }
 
     pub(crate) fn classes_of(&self, line: Line) -> &'static [Class; 2] {

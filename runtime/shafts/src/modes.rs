@@ -132,7 +132,8 @@ impl Assembly {
 
     /// Whether two eigenvalues are equal, as far as the rounding of the terms lets one see, which is more for slow ones.
     fn are_equal(&self, a: &Mode, b: &Mode) -> bool {
-        (a.s - b.s).norm() < jitter(a.s, self.terms()) * a.s.norm()
+        let apart = (a.s - b.s).norm() / a.s.norm();
+        apart < SAME || apart < NEAR && apart < jitter(a.s, self.terms())
     }
 
     /// Whether it is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.

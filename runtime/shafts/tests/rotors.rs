@@ -249,6 +249,46 @@ fn a_round_shaft_at_rest_has_each_mode_twice() {
     }
 }
 
+/// A shaft without shear on soft springs, with a groove of a millimetre and less between two stations: it is stiff, but the slow
+/// motions on the springs are no less modes for it.
+#[test]
+fn a_short_section_hides_no_slow_modes() {
+    let (density, modulus, diameter): (f64, f64, f64) = (7850.0, 210e9, 0.06);
+    let area = std::f64::consts::FRAC_PI_4 * diameter.powi(2);
+    let second = area * diameter.powi(2) / 16.0;
+    let section = |length: f64| Section {
+        length,
+        stiffness: modulus * second,
+        shear: 0.0,
+        mass: density * area,
+        rotary: density * second,
+        lag: 0.0,
+        tension: 0.0,
+        drag: 0.0,
+    };
+    for groove in [10e-3, 1e-3, 0.3e-3] {
+        let span = |first: usize, length: f64, elements: usize| Span {
+            line: Line::Slender,
+            speed: 0.0,
+            sections: vec![(section(length), elements)],
+            ends: [first, first + 1].map(|station| [0, 1, 2, 3].map(|k| Some((4 * station + k, 1.0)))),
+        };
+        let spans = vec![span(0, 0.3, 12), span(1, groove, 1), span(2, 0.3, 12)];
+        let [mass, damping, mut stiffness] = [(); 3].map(|()| Matrix::zeros(16, 16));
+        for (unknown, spring) in [(0, 1e4), (2, 1e4), (12, 1e4), (14, 1e4)] {
+            stiffness[unknown][unknown] = spring;
+        }
+        let found = modes(&Assembly::new(spans, [mass, damping, stiffness], 4).unwrap(), 4);
+        // Up and down, and tilting, of a rigid shaft.
+        let (length, weight) = (0.6 + groove, density * area * (0.6 + groove));
+        let turns = weight * length.powi(2) / 12.0 + density * second * length;
+        let [bounces, tilts] = [(2e4 / weight).sqrt(), (5e3 * length.powi(2) / turns).sqrt()];
+        for (mode, expected) in found.iter().zip([bounces, bounces, tilts, tilts]) {
+            close(mode.s.im, expected, expected, 2e-3, "a slow mode");
+        }
+    }
+}
+
 /// At rest each eigenvalue of a round rotor is two, and any combinations are modes.
 #[test]
 fn lists_of_modes_are_joined() {

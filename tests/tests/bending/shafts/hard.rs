@@ -1,7 +1,7 @@
 //! Rotors that were refused, or lost answers, with numbers from finite elements in another program (degrees 7 and 9 agree).
 
 use eigentol::forced::Measure;
-use eigentol::{Complex, Input, Output, Study};
+use eigentol::{Complex, DesignVariable, Input, Output, Study};
 
 use crate::beams::compared::machine;
 
@@ -80,6 +80,64 @@ fn a_slight_cone_is_eight_shorter_ones() {
             assert!((one.s - eight.s).norm() < 2e-7 * eight.s.norm(), "{line}: {} {}", one.s, eight.s);
         }
     }
+}
+
+/// A cone whose tip is a variable, in one row and in sixteen: derivatives where it does not taper yet, and modes where it does.
+#[test]
+fn a_cone_may_grow_from_none() {
+    let study = |rows: usize| {
+        let end = |k: usize| format!("60 mm + (tip - 60 mm) * {k} / {rows}");
+        let row = |k: usize| format!("[1 m / {rows}, taper({}, {})],", end(k), end(k + 1));
+        let rows: String = (0..rows).map(row).collect();
+        let text = format!(
+            "mechanism Cone {{ input omega: rad/s; design tip = 60 mm;
+                material steel: density 7850 kg/m^3, modulus 200 GPa, poisson 0.3;
+                body rotor: shaft(along: x, up: z, material: steel, sections: [{rows}]) spinning at omega;
+                point seat_a: ground; point a: rotor at root; point seat_b: ground at [1, 0, 0] m; point b: rotor at tip;
+                force left: bushing(from: seat_a, to: a, stiffness: [0, 100, 100] MN/m);
+                force right: bushing(from: seat_b, to: b, stiffness: [0, 100, 130] MN/m); }}"
+        );
+        Study::new(machine(&text)).input(Input::new(0), 300.0)
+    };
+    let studies = [1, 16].map(study);
+    let [one, sixteen] = studies.each_ref().map(|study| study.sensitivities().expect("derivatives").modes);
+    for (mode, (one, sixteen)) in one.iter().zip(&sixteen).enumerate().take(6) {
+        let [a, b] = [one, sixteen].map(|mode| mode.s().expect("derivatives").by_design[0].im);
+        assert!((a - b).abs() < 1e-6 * b.abs(), "{mode}: {a} {b}");
+    }
+    for (tip, tolerance) in [(50e-3, 1e-6), (40e-3, 5e-6)] {
+        let [one, sixteen] = studies
+            .each_ref()
+            .map(|study| study.clone().design(DesignVariable::new(0), tip).modes().expect("modes").modes);
+        for (one, sixteen) in one.iter().zip(&sixteen).take(8) {
+            assert!((one.s - sixteen.s).norm() < tolerance * one.s.norm(), "{tip}: {} {}", one.s, sixteen.s);
+        }
+    }
+}
+
+/// A stiff shaft on very soft springs, of whose slow modes rounding leaves five digits: two across, equal and not three, one along
+/// and one about the axis.
+#[test]
+fn two_equal_modes_of_soft_springs_are_two() {
+    let study = Study::new(machine(
+        "mechanism Soft { input omega: rad/s;
+            material steel: density 7850 kg/m^3, modulus 210 GPa, poisson 0.3;
+            material titanium: density 4430 kg/m^3, modulus 114 GPa, poisson 0.34;
+            body rotor: shaft(along: x, up: z, lines: [bending, torsion, stretch], sections: [
+                [0.1148 m, taper(0.0433715 m, 0.0441007 m), 0.0253748 m, titanium],
+                [0.05604 m, 0.0702506 m, 0 m, steel],
+                [0.04688 m, 0.0295434 m, 0 m, steel],
+                [0.1149 m, taper(0.0758718 m, 0.0615267 m), 0 m, steel]]) spinning at omega;
+            point seat: ground at [0.1148, 0, 0] m; point journal: rotor at station 1;
+            force film: bushing(from: seat, to: journal, stiffness: [0, 100e3, 100e3] N/m, damping: [0, 10, 10] N*s/m);
+            point base: ground; point end: rotor at root;
+            force soft: bushing(from: base, to: end, stiffness: [1e3, 1e3, 1e3] N/m, turning_stiffness: [1, 1, 1] N*m/rad); }",
+    ));
+    let modes = study.input(Input::new(0), 0.0).modes().expect("modes").modes;
+    let slow: Vec<f64> = modes.iter().map(|mode| mode.s.im).filter(|frequency| *frequency < 100.0).collect();
+    let expected = [12.177_171, 12.177_171, 13.108_294, 17.522_529];
+    assert!(slow.len() == expected.len(), "{slow:?}");
+    assert!(slow.iter().zip(expected).all(|(found, expected)| (found / expected - 1.0).abs() < 1e-5), "{slow:?}");
 }
 
 /// A short stiff shaft whose material lags, in stiff damped bearings: four modes, and where the first meets the speed.

@@ -27,7 +27,8 @@ use crate::syntax::ast::{self, Term, Value, ValueKind};
 const ELEMENTS: usize = 24;
 /// Pairs of uniform sections that replace a tapered one, for each e-fold of a diameter, or for the fourth root of the e-folds in a
 /// section as long as the shaft: along a wave, errors are as large as the taper and fall with the fourth power of the pairs. They
-/// leave some `1e-8` in the lowest frequencies.
+/// leave some `1e-8` in the lowest frequencies. Where an end is no number, the taper may grow, and derivatives by that end are
+/// none the smaller for a slight one: by the waves, it then counts as an e-fold.
 const STEPS: f64 = 64.0;
 /// Fewest and most of them.
 const FEWEST: usize = 4;
@@ -299,7 +300,8 @@ impl Resolver<'_> {
         let whole: f64 = sections.iter().map(|(length, _)| self.nominal_of(length)).sum();
         let row = |(length, layers): &(Expr, Vec<Layer>)| {
             let folds = layers.iter().map(|layer| layer.folds(|size| self.nominal_of(size))).fold(0.0, f64::max);
-            let by_waves = folds.powf(0.25) * self.nominal_of(length) / whole;
+            let along_waves = if layers.iter().any(Layer::may_change) { folds.max(1.0) } else { folds };
+            let by_waves = along_waves.powf(0.25) * self.nominal_of(length) / whole;
             row_of_layers(length, layers, ((STEPS * folds.max(by_waves)) as usize).clamp(FEWEST, MOST_STEPS))
         };
         Some(sections.iter().map(row).collect())
@@ -491,6 +493,11 @@ impl Layer {
     fn is_tapered(&self) -> bool {
         let [first, last] = &self.table.ends;
         first != last
+    }
+
+    /// Whether an end of what is tapered follows variables.
+    fn may_change(&self) -> bool {
+        self.is_tapered() && self.table.ends.iter().flatten().any(|size| !matches!(size, Expr::Number(_)))
     }
 
     /// The greatest change of a size or of the wall along it, as a logarithm.

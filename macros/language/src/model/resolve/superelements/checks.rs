@@ -1,5 +1,5 @@
-//! Whether matrices are those of a part that exists: of the right order, moving as a rigid body without resistance, with
-//! the same mass in all directions and no negative energy.
+//! Whether matrices are those of a part that exists: of the right order, moving as a rigid body without resistance and with
+//! the same mass in all directions unless they are held, and with no negative energy.
 
 use proc_macro2::Ident;
 
@@ -55,7 +55,7 @@ impl Resolver<'_> {
         if !is_held && let Some(wrong) = resists(declared, &stiffness, &arms) {
             return Some(("stiffness", wrong.0, wrong.1));
         }
-        if let Some(message) = masses_differ(declared, &mass, &arms) {
+        if let Some(message) = masses_differ(declared, &mass, &arms, is_held) {
             let help = "rows are along x, y, z and about x, y, z of each station in turn, then what is internal";
             return Some(("mass", message, help.into()));
         }
@@ -151,8 +151,9 @@ fn unit_of_length(declared: &Declared, stiffness: &Square, arms: &[[f64; 3]]) ->
     (factor > 0.0 && fits).then(|| format!("{factor:.3e}").parse().unwrap_or(factor))
 }
 
-/// What is wrong with the mass in the three directions.
-fn masses_differ(declared: &Declared, mass: &Square, arms: &[[f64; 3]]) -> Option<String> {
+/// What is wrong with the mass in the three directions. They differ in a part that is held: what lies between its stations
+/// and the ground moves less, and not by the same share.
+fn masses_differ(declared: &Declared, mass: &Square, arms: &[[f64; 3]], is_held: bool) -> Option<String> {
     let weigh = |motion: usize| -> Option<f64> {
         let moves = declared.moves.iter().skip(motion).step_by(MOTIONS).take(arms.len()).all(|moves| *moves);
         let x = declared.rigid(motion, arms);
@@ -163,7 +164,7 @@ fn masses_differ(declared: &Declared, mass: &Square, arms: &[[f64; 3]]) -> Optio
     if first <= 0.0 {
         return Some(format!("the mass {} is {first:.6} kg", WORDS[masses[0].0]));
     }
-    let other = masses.iter().find(|(_, other)| (other - first).abs() > NEARLY * first)?;
+    let other = masses.iter().find(|(_, other)| !is_held && (other - first).abs() > NEARLY * first)?;
     Some(format!("the mass is {first:.6} kg {}, but {:.6} kg {}", WORDS[masses[0].0], other.1, WORDS[other.0]))
 }
 

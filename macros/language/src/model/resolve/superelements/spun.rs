@@ -20,7 +20,7 @@ const ROUNDED: f64 = 1e-6;
 /// The turning of what a superelement stands on.
 pub(super) struct Spin {
     /// A unit vector, and a place on it.
-    axis: [f64; 3],
+    axis: Vector,
     place: Vector,
     /// rad/s.
     speed: Expr,
@@ -30,10 +30,44 @@ impl Spin {
     /// The centrifugal acceleration of a place.
     pub(super) fn outwards(&self, place: &Vector) -> Vector {
         let arm: Vector = [0, 1, 2].map(|k| subtract(place[k].clone(), self.place[k].clone()));
-        let axis = self.axis.map(Expr::Number);
-        let along = dot(&axis, &arm);
+        let along = dot(&self.axis, &arm);
         let square = power_integer(self.speed.clone(), 2);
-        [0, 1, 2].map(|k| multiply(square.clone(), subtract(arm[k].clone(), multiply(along.clone(), axis[k].clone()))))
+        let across = |k: usize| subtract(arm[k].clone(), multiply(along.clone(), self.axis[k].clone()));
+        [0, 1, 2].map(|k| multiply(square.clone(), across(k)))
+    }
+
+    /// The axis, if it is the same in all designs.
+    fn numbers(&self) -> Option<[f64; 3]> {
+        let number = |x: &Expr| if let Expr::Number(x) = x { Some(*x) } else { None };
+        let [x, y, z] = self.axis.each_ref().map(number);
+        Some([x?, y?, z?])
+    }
+
+    /// The matrix of the speed's cross product, as matrices with factors.
+    fn cross(&self) -> Vec<(Expr, [[f64; 3]; 3])> {
+        let of = |[x, y, z]: [f64; 3]| [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
+        if let Some(axis) = self.numbers() {
+            return vec![(Expr::Number(1.0), of(axis))];
+        }
+        let unit = |k: usize| std::array::from_fn(|j| f64::from(u8::from(j == k)));
+        (0..3).map(|k| (self.axis[k].clone(), of(unit(k)))).collect()
+    }
+
+    /// What is left of a vector without its part along the axis, the same.
+    fn across(&self) -> Vec<(Expr, [[f64; 3]; 3])> {
+        let one = |is: bool| f64::from(u8::from(is));
+        if let Some(axis) = self.numbers() {
+            let of = |a: usize, b: usize| one(a == b) - axis[a] * axis[b];
+            return vec![(Expr::Number(1.0), std::array::from_fn(|a| std::array::from_fn(|b| of(a, b))))];
+        }
+        let identity = std::array::from_fn(|a| std::array::from_fn(|b| one(a == b)));
+        let pair = |k: usize, l: usize| {
+            let of = |a: usize, b: usize| one((a, b) == (k, l) || (a, b) == (l, k));
+            let product = multiply(self.axis[k].clone(), self.axis[l].clone());
+            (negate(product), std::array::from_fn(|a| std::array::from_fn(|b| of(a, b))))
+        };
+        let pairs = (0..3).flat_map(|k| (k..3).map(move |l| (k, l)));
+        [(Expr::Number(1.0), identity)].into_iter().chain(pairs.map(|(k, l)| pair(k, l))).collect()
     }
 }
 
@@ -68,13 +102,14 @@ impl Resolver<'_> {
         };
         let along = dot(&axis, gravity);
         let across = [0, 1, 2].map(|k| subtract(gravity[k].clone(), multiply(along.clone(), axis[k].clone())));
-        if across.iter().any(|part| self.nominal_of(part).abs() > ROUNDED) {
+        let turns = axis.iter().any(|part| !matches!(part, Expr::Number(_)));
+        let acts = gravity.iter().any(|part| self.nominal_of(part) != 0.0);
+        if turns && acts || across.iter().any(|part| self.nominal_of(part).abs() > ROUNDED) {
             let message = format!("gravity turns in the axes of `{name}`, once in each revolution");
             let help = "let it act along the axis, or leave it out: what is linear has the same modes without it";
             self.diagnostics.error_with_help(at, message, help);
             return None;
         }
-        let axis = axis.each_ref().map(|x| self.nominal_of(x));
         Some(Spin { axis, place, speed })
     }
 
@@ -84,9 +119,7 @@ impl Resolver<'_> {
         if !declared.damping[1].is_empty() {
             return Some(spun);
         }
-        let [x, y, z] = spin.axis;
-        let cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
-        let outwards = |a: usize, b: usize| f64::from(u8::from(a == b)) - spin.axis[a] * spin.axis[b];
+        let [cross, across] = [spin.cross(), spin.across()];
         for Share { factor, matrix, .. } in &declared.mass {
             if !is_of_nodes(declared, matrix) {
                 let message = format!(
@@ -98,12 +131,18 @@ impl Resolver<'_> {
                 return None;
             }
             let of_pair = |[i, j]: [usize; 2]| matrix.mean(MOTIONS * i, MOTIONS * j);
-            let coriolis = Square::of_nodes(matrix.order, -1.0, |nodes, [a, b]| of_pair(nodes) * cross[a][b]);
-            let softening = Square::of_nodes(matrix.order, 1.0, |nodes, [a, b]| of_pair(nodes) * outwards(a, b));
             let twice = multiply(Expr::Number(2.0), multiply(factor.clone(), spin.speed.clone()));
             let square = negate(multiply(factor.clone(), power_integer(spin.speed.clone(), 2)));
-            spun.damping[1].push(Share { factor: twice, matrix: Rc::new(coriolis), grows: false });
-            spun.stiffness.push(Share { factor: square, matrix: Rc::new(softening), grows: true });
+            for (part, cross) in &cross {
+                let coriolis = Square::of_nodes(matrix.order, -1.0, |nodes, [a, b]| of_pair(nodes) * cross[a][b]);
+                let factor = multiply(twice.clone(), part.clone());
+                spun.damping[1].push(Share { factor, matrix: Rc::new(coriolis), grows: false });
+            }
+            for (part, across) in &across {
+                let softening = Square::of_nodes(matrix.order, 1.0, |nodes, [a, b]| of_pair(nodes) * across[a][b]);
+                let factor = multiply(square.clone(), part.clone());
+                spun.stiffness.push(Share { factor, matrix: Rc::new(softening), grows: true });
+            }
         }
         Some(spun)
     }
