@@ -191,38 +191,3 @@ fn gauss(n: usize) -> (Vec<f64>, Vec<f64>) {
         })
         .unzip()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{classes, gauss, legendre};
-    use crate::section::Line;
-
-    #[test]
-    fn quadrature_is_exact_to_its_degree() {
-        let (points, weights) = gauss(7);
-        for power in 0..14 {
-            let sum: f64 = points.iter().zip(&weights).map(|(x, w)| w * x.powi(power)).sum();
-            let exact = if power % 2 == 0 { 2.0 / (f64::from(power) + 1.0) } else { 0.0 };
-            assert!((sum - exact).abs() < 1e-15, "{power} {sum}");
-        }
-        // P_4'' = (105 x^2 - 15) / 2
-        assert!((legendre(4, 0.3)[2] - (105.0 * 0.09 - 15.0) / 2.0).abs() < 1e-13);
-    }
-
-    #[test]
-    fn elements_know_rigid_motion_and_have_all_functions() {
-        for (line, degree, sizes) in [
-            (Line::Timoshenko, 4, [5, 5]),
-            (Line::Timoshenko, 3, [4, 4]),
-            (Line::Bar, 4, [3, 2]),
-            (Line::Slender, 7, [4, 4]),
-        ] {
-            let all = classes(line, degree);
-            assert_eq!([all[0].size, all[1].size], sizes, "{line:?} {degree}");
-            // A deflection that is one everywhere has no slope.
-            let last = if line == Line::Timoshenko { 3 } else { 1 };
-            let resists = |entry: &super::Entry| entry.column == 0 && entry.terms.iter().any(|(term, _)| *term == last);
-            assert!(!all[0].entries.iter().any(resists));
-        }
-    }
-}
