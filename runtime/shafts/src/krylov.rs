@@ -16,6 +16,8 @@ pub(crate) const SLOW: f64 = 16.0;
 pub(crate) const KNOWN: f64 = 1e-4;
 /// The most Krylov spaces.
 const SPACES: usize = 6;
+/// The most modes for which two directions each, and some, are enough: among many, one that the first direction hardly moves comes late.
+const FEW: usize = 14;
 /// The shift as a part of a typical frequency: rigid motions have none.
 const SHIFT: f64 = 0.1;
 
@@ -91,7 +93,8 @@ impl Assembly {
         (count, sure): (usize, usize),
         wanted: &impl Fn(Complex) -> bool,
     ) -> Result<Vec<Ritz>, Error> {
-        let (mut shift, mut steps) = (SHIFT * self.typical_frequency(), 2 * count + 14);
+        let mut shift = SHIFT * self.typical_frequency();
+        let mut steps = 2 * count + 14 + 2 * count.saturating_sub(FEW);
         let mut at = self.at(shift.into()).ok_or(Error::NotConverged)?;
         let mut space = self.space(&at, shift);
         let mut found = Vec::new();
