@@ -87,9 +87,9 @@ impl Mechanism {
         let place = |point: &Point| Some(sum(self.standing(values, point.frame)?, of(values, &point.placement.offset)));
         let away = distance(place(first)?, place(second)?);
         let holds = |shaft: &&Shaft| {
-            let stations = shaft.stations.iter().map(|station| Frame::Body(station.body));
-            let on = |point: &Point| stations.clone().any(|station| station == point.frame);
-            let ends = [stations.clone().next(), stations.clone().last()].map(|end| self.standing(values, end?));
+            let on = |point: &Point| shaft.stations.iter().any(|station| Frame::Body(station.body) == point.frame);
+            let ends = [shaft.stations.first(), shaft.stations.last()];
+            let ends = ends.map(|end| self.standing(values, Frame::Body(end?.body)));
             let [Some(root), Some(tip)] = ends else { return false };
             (on(first) || on(second)) && away > BESIDE * distance(root, tip)
         };
