@@ -136,7 +136,7 @@ impl Assembly {
         apart < SAME || apart < NEAR && apart < jitter(a.s, self.terms())
     }
 
-    /// Whether it is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.
+    /// Whether a mode is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.
     fn is_new(&self, mode: &Mode, among: &[Found]) -> bool {
         let mut known: Vec<Vector<Complex>> = Vec::new();
         let rest = |x: &Vector<Complex>, known: &[Vector<Complex>]| {

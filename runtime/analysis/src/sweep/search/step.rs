@@ -10,7 +10,6 @@ use super::spectrum::{Root, Spectrum};
 use crate::branches::{Curve, CurvePoint, CurvePosition, Located, SpecialKind, SpecialPoint};
 use crate::constraints::Structure;
 use crate::sweep::condition::{Change, Condition};
-
 use crate::{Complex, Mode, Stability, Vector, modes};
 
 /// A step from one station of a branch to the next, and the states solved on it.
