@@ -3,7 +3,9 @@
 use proc_macro2::Ident;
 
 use super::evaluate::Values;
-use super::mechanism::{Beam, ForceLaw, Frame, Joint, Mechanism, Motion, Point, Section, Shaft, StepMotion};
+use super::mechanism::{
+    Beam, ForceLaw, Frame, Joint, JointStep, Line, Mechanism, Motion, Point, Section, Shaft, StepMotion,
+};
 use crate::base::ids::PointId;
 use crate::model::expression::{Expr, Vector};
 
@@ -70,14 +72,13 @@ impl Mechanism {
 
     /// A joint that drives a rotation from a station of a shaft that bends.
     fn driven_on(&self, shaft: &Shaft) -> Option<&Ident> {
-        let drives =
-            |step: &StepMotion, motion: &Motion| matches!((step, motion), (StepMotion::Turn, Motion::Driven(_)));
-        let on_shaft = |frame: Frame| shaft.stations.iter().any(|station| Frame::Body(station.body) == frame);
-        let joint = self.joints.iter().find(|joint| {
-            let mut steps = joint.steps.iter();
-            on_shaft(joint.from)
-                && steps.any(|step| drives(&step.motion, &self.coordinates[step.coordinate.index()].motion))
-        });
+        let turns = |step: &JointStep| {
+            let motion = &self.coordinates[step.coordinate.index()].motion;
+            step.motion == StepMotion::Turn && matches!(motion, Motion::Driven(_)) && motion.runs()
+        };
+        let on_shaft = |joint: &Joint| shaft.stations.iter().any(|station| Frame::Body(station.body) == joint.from);
+        let bends = shaft.spans.iter().any(|span| span.line != Line::Bar);
+        let joint = self.joints.iter().find(|joint| bends && on_shaft(joint) && joint.steps.iter().any(turns));
         joint.map(|joint| &joint.name)
     }
 

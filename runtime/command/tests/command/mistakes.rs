@@ -145,12 +145,12 @@ warning: `arm` is stiffer about y, although its width is greater than its height
 /// What turns on a shaft that stands still, and a seat elsewhere than the journal.
 #[test]
 fn a_shaft_that_seems_not_to_be_meant_is_warned_of() {
-    let warning = |attribute: &str, spinning: &str, seat: &str| {
+    let said = |attribute: &str, spinning: &str, driven: &str, seat: &str| {
         let text = format!(
             "{attribute}mechanism A {{ input omega: rad/s;
     body rotor: shaft(along: x, up: z, length: 2 m, mass_per_length: 40 kg/m, stiffness: 1 MN*m^2, shear: 0){spinning};
     body wheel: rigid(mass: 40 kg, inertia: [0.8, 0.45, 0.45] kg*m^2);
-    joint turns: revolute(x) from rotor at tip to wheel, driven at omega;
+    joint turns: revolute(x) from rotor at tip to wheel{driven};
     point left: ground; point a: rotor at root; point right: ground at {seat}; point b: rotor at tip;
     force film_a: bushing(from: left, to: a, stiffness: [0, 1, 1] MN/m);
     force film_b: bushing(from: right, to: b, stiffness: [0, 1, 1] MN/m);
@@ -161,7 +161,10 @@ fn a_shaft_that_seems_not_to_be_meant_is_warned_of() {
         assert_eq!(run.code, 0, "{}", run.err);
         run.err
     };
+    let warning = |attribute: &str, spinning: &str, seat: &str| said(attribute, spinning, ", driven at omega", seat);
     let (spins, there) = (" spinning at omega", "[2 m, 0, 0]");
+    let held = said("", "", ", driven at 0 rad/s", there);
+    assert!(!held.contains("does not spin"), "{held}");
     assert_eq!(warning("", spins, there), "");
     assert_eq!(warning("", spins, "[2010 mm, 0, 0]"), "");
     let stands = warning("", "", there);
