@@ -52,13 +52,13 @@ fn undamped_modes_have_the_spreads_of_a_root() {
         let slope = mode.s().unwrap().by_design[1];
         assert!((slope + 0.5 * rate * unit).norm() < 1e-12, "{slope}");
         let by_length = |quantity| mode.of(quantity).map(|slopes| slopes.by_design[1]);
-        let [omega, natural, damping, growth] = Quantity::ALL.map(by_length);
+        let [omega, natural, damping, growth, decrement] = Quantity::ALL.map(by_length);
         if unit.im > 0.0 {
             close(omega.unwrap(), slope.im, 1e-15);
             close(natural.unwrap(), slope.im, 1e-15);
-            assert_eq!((damping, growth), (Some(0.0), Some(0.0)));
+            assert_eq!((damping, growth, decrement), (Some(0.0), Some(0.0), Some(0.0)));
         } else {
-            assert_eq!([omega, natural, damping, growth], [None, None, None, Some(slope.re)]);
+            assert_eq!([omega, natural, damping, growth, decrement], [None, None, None, Some(slope.re), None]);
         }
     }
     let hanging = &study(0.1).first_order().unwrap().modes[0];

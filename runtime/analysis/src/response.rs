@@ -525,7 +525,7 @@ fn tells_stability(response: &Response) -> bool {
     let Response::Mode { quantity, .. } = response else {
         return false;
     };
-    matches!(quantity, Quantity::DampingRatio | Quantity::Growth)
+    matches!(quantity, Quantity::DampingRatio | Quantity::Growth | Quantity::LogDecrement)
 }
 
 fn check_mode(mode: usize, modes: &Modes) -> Result<(), Error> {

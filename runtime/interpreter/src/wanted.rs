@@ -16,7 +16,7 @@ use crate::mechanism::Interpreted;
 use crate::mistakes::Mistakes;
 
 /// The forms of a requirement, of which a response is the part before the limit.
-pub const FORMS: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `growth 1 <= 0`, `angle <= 5 deg`, \
+pub const FORMS: &str = "write what, and its limit: `frequency 1 >= 20 Hz`, `damping_ratio 2 >= 0.05`, `log_decrement 1 >= 0.1`, `growth 1 <= 0`, `angle <= 5 deg`, \
                          `vibration shake under u <= 0.1 mm`, `velocity shake <= 4.5 mm/s rms`, \
                          `vibration shake along speed=0..6000rpm <= 100 um p-p`, `vibration major(shake, lift) <= 50 um`, \
                          `velocity shake under all <= 4.5 mm/s rms`, `peak shake along speed=0..6000rpm away from speed by 15%`, \
@@ -282,6 +282,7 @@ fn quantity(name: &str) -> Option<Quantity> {
         "natural_frequency" => Quantity::NaturalFrequency,
         "damping_ratio" => Quantity::DampingRatio,
         "growth" => Quantity::Growth,
+        "log_decrement" => Quantity::LogDecrement,
         _ => return None,
     })
 }

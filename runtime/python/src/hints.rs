@@ -25,7 +25,7 @@ pub(crate) type Counts<'py> = Bound<'py, PyDict>;
 /// Columns by heading. In Python `dict[str, Any]`.
 pub(crate) type Table<'py> = Bound<'py, PyDict>;
 
-/// A quantity of a mode. In Python `Literal["frequency", "natural_frequency", "damping_ratio", "growth"]`.
+/// A quantity of a mode. In Python `Literal["frequency", "natural_frequency", "damping_ratio", "growth", "log_decrement"]`.
 pub(crate) type Quantity = str;
 
 /// In Python `Quantity | Literal["lambda"]`.

@@ -1,5 +1,7 @@
 //! Undamped modes and modes of the whole pencil, with all their derivatives.
 
+use core::f64::consts::TAU;
+
 use nalgebra::{Complex, DMatrix};
 
 use super::Derived;
@@ -42,6 +44,8 @@ pub struct GeneralMode {
     pub magnitude: Derived,
     /// `-Re s / |s|`, the damping ratio.
     pub damping_ratio: Derived,
+    /// Logarithmic decrement `-2 pi Re s / Im s`; not a number without oscillation.
+    pub log_decrement: Derived,
     /// `phi`, with its lead component real and positive.
     pub right: Vec<ComplexDerived>,
     /// `psi`, with its lead component real and positive.
@@ -190,6 +194,7 @@ impl State {
             s: ComplexDerived { re: of(&|s| s.re), im: of(&|s| s.im) },
             magnitude: of(&HyperComplex::modulus),
             damping_ratio: of(&|s| -s.re / s.modulus()),
+            log_decrement: of(&|s| -s.re / s.im * Hyper::constant(TAU)),
             right: shape(&right),
             left: shape(&left),
             leads: [right_lead, left_lead],

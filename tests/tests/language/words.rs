@@ -82,6 +82,7 @@ fn said(pick: &mut dyn FnMut(usize) -> usize) -> (String, Response, &'static str
     let number = number + 1;
     match pick(9) {
         0 => (format!("frequency {number}"), mode(Quantity::Frequency), "rad/s"),
+        1 if pick(2) == 0 => (format!("log_decrement {number}"), mode(Quantity::LogDecrement), ""),
         1 => (format!("damping_ratio {number}"), mode(Quantity::DampingRatio), ""),
         2 => (format!("growth {number}"), mode(Quantity::Growth), "1/s"),
         3 => (name.to_owned(), Response::Output(Output::new(output)), "m"),

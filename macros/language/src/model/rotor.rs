@@ -2,7 +2,7 @@
 
 use super::evaluate::Values;
 use super::expression::Expr;
-use super::mechanism::{Beam, Body, CoordinateQuantity, Deviation, ExcitationLaw, Frame, Mechanism};
+use super::mechanism::{Beam, Body, CoordinateQuantity, Deviation, ExcitationLaw, Frame, Mechanism, Shaft};
 use crate::base::ids::DesignId;
 
 /// The mass of all that a running coordinate turns, and of beams that spin, kg, at inputs `u` and design variables `b`, SI.
@@ -17,8 +17,22 @@ pub fn turning_mass(mechanism: &Mechanism, u: &[f64], b: &[f64]) -> f64 {
         density * values.of(&beam.length)
     });
     let shafts = mechanism.shafts.iter().filter(|shaft| shaft.speed != Expr::Number(0.0));
-    let stepped = shafts.flat_map(|shaft| &shaft.masses).map(|mass| values.of(mass));
+    let stepped = shafts.flat_map(|shaft| &shaft.weights).map(|[_, mass]| values.of(mass));
     rigid.chain(flexible).chain(stepped).sum()
+}
+
+/// Length of a shaft, m, its mass, kg, and how far its centre of mass is from its root, m, in the nominal design; nothing where an
+/// input decides.
+pub fn nominal_weight(mechanism: &Mechanism, shaft: &Shaft) -> Option<[f64; 3]> {
+    let design: Vec<f64> = mechanism.design.iter().map(|value| value.nominal).collect();
+    let values = Values::new(&mechanism.constants, &[], &design);
+    let [mut length, mut mass, mut moment] = [0.0; 3];
+    for [own_length, own_mass] in shaft.weights.iter().map(|weight| weight.each_ref().map(|x| values.of(x))) {
+        moment += own_mass * (length + own_length / 2.0);
+        length += own_length;
+        mass += own_mass;
+    }
+    (mass > 0.0).then(|| [length, mass, moment / mass])
 }
 
 /// For each body whether a running coordinate turns it.

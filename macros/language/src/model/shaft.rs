@@ -14,8 +14,8 @@ pub struct Shaft {
     pub axes: [Vector; 3],
     /// Speed at which it turns about its line, rad/s.
     pub speed: Expr,
-    /// Mass of each section, kg.
-    pub masses: Vec<Expr>,
+    /// Length, m, and mass, kg, of each section.
+    pub weights: Vec<[Expr; 2]>,
     /// How it is seen: cross-sections from the root to the tip, linear between, two where the diameter jumps.
     pub outline: Vec<CrossSection>,
     /// Its stations in order; the first is at the root, the last at the tip.

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use eigentol::{Description, Role};
+use eigentol_compiler::model::rotor::nominal_weight;
 use eigentol_interpreter::description;
+use eigentol_results::numbers::number;
 
 use crate::color::Color;
 use crate::declaration::Declaration;
@@ -32,6 +34,12 @@ impl Check {
             }
             let overview = summary(&description(&compilation));
             print(&format!("{}: {overview}\n", declaration.name))?;
+            for shaft in &compilation.mechanism.shafts {
+                let Some(weight) = nominal_weight(&compilation.mechanism, shaft) else { continue };
+                let [length, mass, center] = weight.map(number);
+                let name = &shaft.name;
+                print(&format!("  {name}: {length} m, {mass} kg, centre of mass {center} m from its first end\n"))?;
+            }
             for steady in &compilation.mechanism.steady {
                 let name = &steady.name;
                 print(&format!("  steady: the value of `{name}` selects one of a family of steady motions\n"))?;

@@ -16,7 +16,7 @@ use crate::verdict::Verdict;
 /// How requirements may be stated.
 const KEYS: &str = concat!(
     "Each requirement is one text:\n",
-    "  --require 'frequency 1 >= 20 Hz'      also <=; natural_frequency, damping_ratio, growth; modes count from 1\n",
+    "  --require 'frequency 1 >= 20 Hz'      also <=; natural_frequency, damping_ratio, log_decrement, growth; modes count from 1\n",
     "  --require 'frequency 1 outside 4..5 Hz'   or within 4..5 Hz\n",
     "  --require 'frequency 1 away from 2 speed by 10%'   a multiple (1) of an input\n",
     "  --require 'angle <= 5 deg'            an output of the declaration\n",

@@ -105,3 +105,16 @@ fn check_notes_what_is_worth_knowing_about_beams() {
     let one = "`bar` twists and bends in one plane only: right as long as it is nearly straight";
     assert_eq!(twisting.first().map(String::as_str), Some(one), "{twisting:?}");
 }
+
+/// A stepped shaft and a cone by hand.
+#[test]
+fn check_weighs_shafts() {
+    let text = "mechanism R { input speed: rad/s; design d = 40 mm;
+        material heavy: density 8000 kg/m^3, modulus 210 GPa, poisson 0.3;
+        body rotor: shaft(along: x, up: z, material: heavy, sections: [[0.4 m, d], [0.2 m, 2 * d]]) spinning at speed;
+        body cone: shaft(along: x, up: z, material: heavy, sections: [[1 m, taper(60 mm, 30 mm)]]); }";
+    let found = notes(text);
+    // 8000 pi / 4 (0.4 0.04^2 + 0.2 0.08^2); 8000 pi / 12 (0.06^2 + 0.06 0.03 + 0.03^2), whose centre is known.
+    assert_eq!(found[0], "rotor: 0.600000 m, 12.0637 kg, centre of mass 0.400000 m from its first end");
+    assert_eq!(found[1], "cone: 1.00000 m, 13.1947 kg, centre of mass 0.392857 m from its first end");
+}

@@ -16,6 +16,7 @@ pub(crate) fn quantity(py: Python<'_>, name: &str) -> PyResult<Quantity> {
         ("natural_frequency", Quantity::NaturalFrequency),
         ("damping_ratio", Quantity::DampingRatio),
         ("growth", Quantity::Growth),
+        ("log_decrement", Quantity::LogDecrement),
     ];
     word(py, "quantity", name, &words)
 }
@@ -86,8 +87,8 @@ attributes! {
 
 #[pymethods]
 impl Sensitivities {
-    /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
-    /// by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
+    /// Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio", "log_decrement" or
+    /// "growth" (1/s), by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
     /// none.
     fn of<'py>(&self, py: Python<'py>, name: &hints::Quantity) -> PyResult<(Array2<'py>, Array2<'py>)> {
         let wanted = quantity(py, name)?;

@@ -121,6 +121,7 @@ fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family, d: &Description) {
     }
     table.number("natural frequency", "rad/s", &Mode::natural_frequency);
     table.number("damping ratio", "", &Mode::damping_ratio);
+    table.number("log decrement", "", &Mode::log_decrement);
     table.number("Re s", "1/s", &|mode| Some(mode.s.re));
     table.number("Im s", "1/s", &|mode| Some(mode.s.im));
     table.number("lambda", "1/s^2", &|mode| Some(mode.lambda));
@@ -128,6 +129,11 @@ fn eigenvalues(table: &mut Columns<'_, Mode>, family: Family, d: &Description) {
     if family == Family::General {
         table.cells("Re s [1/s]", &|mode| rough(growth(mode)));
         table.cells("damping ratio", &|mode| or_dash(damping(mode), rough));
+        if !d.spans.is_empty() {
+            let decrement =
+                |mode: &Mode| damping(mode).filter(|ratio| *ratio != 0.0).and_then(|_| mode.log_decrement());
+            table.cells("log decrement", &|mode| or_dash(decrement(mode), rough));
+        }
     }
     table.words("motion", &|mode| Some(mode.behaviour.word().to_owned()));
     table.cells("motion", &|mode| mode.behaviour.to_string());

@@ -8,7 +8,7 @@
 //! family (`Chat` zero and `Khat` symmetric, or not), not the numbers at one state: a sweep that starts at rest keeps
 //! its family. `N` coordinates have `N` to `2 N` modes, because a real eigenvalue is a motion of its own.
 
-use core::f64::consts::LN_2;
+use core::f64::consts::{LN_2, TAU};
 use core::fmt;
 
 use eigentol_results::numbers::rough;
@@ -195,6 +195,12 @@ impl Mode {
             Behaviour::Free | Behaviour::Neutral => None,
             _ => Some(-self.s.re / self.s.norm()),
         }
+    }
+
+    /// Logarithmic decrement `-2 pi Re s / Im s` of an oscillation; negative for one that grows.
+    #[must_use]
+    pub fn log_decrement(&self) -> Option<f64> {
+        Some(self.damping_ratio()? * TAU * self.s.norm() / self.frequency()?)
     }
 
     /// A mode of a mechanism with shafts.

@@ -1,5 +1,7 @@
 //! Quantities of a mode, such as frequency and damping ratio: values and derivatives from those of its eigenvalue.
 
+use core::f64::consts::TAU;
+
 use crate::{Complex, Mode, Text, Unit};
 
 /// A real number that describes a mode.
@@ -15,11 +17,14 @@ pub enum Quantity {
     DampingRatio,
     /// Rate of growth `Re s`, 1/s.
     Growth,
+    /// Logarithmic decrement `-2 pi Re s / Im s`: of the ratio of two maxima one after the other.
+    LogDecrement,
 }
 
 impl Quantity {
     /// All quantities.
-    pub const ALL: [Self; 4] = [Self::Frequency, Self::NaturalFrequency, Self::DampingRatio, Self::Growth];
+    pub const ALL: [Self; 5] =
+        [Self::Frequency, Self::NaturalFrequency, Self::DampingRatio, Self::Growth, Self::LogDecrement];
 
     /// The unit of the quantity.
     #[must_use]
@@ -27,7 +32,7 @@ impl Quantity {
         Unit {
             symbol: Text::Static(match self {
                 Self::Frequency | Self::NaturalFrequency => "rad/s",
-                Self::DampingRatio => "",
+                Self::DampingRatio | Self::LogDecrement => "",
                 Self::Growth => "1/s",
             }),
             scale: 1.0,
@@ -42,6 +47,7 @@ impl Quantity {
             Self::NaturalFrequency => mode.natural_frequency(),
             Self::DampingRatio => mode.damping_ratio(),
             Self::Growth => Some(mode.s.re),
+            Self::LogDecrement => mode.log_decrement(),
         }
     }
 
@@ -49,8 +55,8 @@ impl Quantity {
     #[doc(hidden)]
     pub fn of_stable(self, s: Complex) -> Option<f64> {
         match self {
-            Self::Frequency | Self::NaturalFrequency if s.im <= 0.0 => None,
-            Self::DampingRatio if s.re == 0.0 => Some(0.0),
+            Self::Frequency | Self::NaturalFrequency | Self::LogDecrement if s.im <= 0.0 => None,
+            Self::DampingRatio | Self::LogDecrement if s.re == 0.0 => Some(0.0),
             _ => Some(self.value(s)),
         }
     }
@@ -63,6 +69,7 @@ impl Quantity {
             Self::NaturalFrequency => s.norm(),
             Self::DampingRatio => -s.re / s.norm(),
             Self::Growth => s.re,
+            Self::LogDecrement => -TAU * s.re / s.im,
         }
     }
 
@@ -78,6 +85,8 @@ impl Quantity {
             Self::NaturalFrequency => (unit.conj() * ds).re,
             // -Im s Im(conj(s) ds) / |s|^3, negated: exact for imaginary `s`.
             Self::DampingRatio => unit.im * (unit.conj() * ds).im / size,
+            // -2 pi cot(arg s), whose slope is 2 pi / sin^2.
+            Self::LogDecrement => TAU * (unit.conj() * ds).im / size / (unit.im * unit.im),
         }
     }
 
@@ -97,9 +106,12 @@ impl Quantity {
             }
             Self::DampingRatio => {
                 // -Re (s / |s|) from the logarithm of s: s/|s| = exp(i arg s), arg = Im ln s.
-                let (la, lb) = (over(a, s), over(b, s));
-                let lab = over(ab, s) - la * lb;
+                let [la, lb, lab] = logarithmic(s, a, b, ab);
                 unit.re * la.im * lb.im + unit.im * lab.im
+            }
+            Self::LogDecrement => {
+                let [la, lb, lab] = logarithmic(s, a, b, ab);
+                TAU * (lab.im - 2.0 * (unit.re / unit.im) * la.im * lb.im) / (unit.im * unit.im)
             }
         }
     }
@@ -111,12 +123,19 @@ crate::worded! {
         Self::NaturalFrequency => "natural frequency",
         Self::DampingRatio => "damping ratio",
         Self::Growth => "growth",
+        Self::LogDecrement => "log decrement",
     }
 }
 
 /// For undamped modes: the derivative of `s` from that of `lambda = -s^2`.
 pub fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
     over((-0.5 * dlambda).into(), s)
+}
+
+/// Derivatives of `ln s`: the first two, and the second along both.
+fn logarithmic(s: Complex, a: Complex, b: Complex, ab: Complex) -> [Complex; 3] {
+    let (la, lb) = (over(a, s), over(b, s));
+    [la, lb, over(ab, s) - la * lb]
 }
 
 /// `a / s` without squaring `|s|`, which may exceed the range of a double.

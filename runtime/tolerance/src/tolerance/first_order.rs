@@ -1,5 +1,7 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of its reliability.
 
+use core::f64::consts::TAU;
+
 use super::{Spread, Tolerances};
 use crate::algebra::Vector;
 use crate::modes::Family;
@@ -51,7 +53,7 @@ pub struct ModeTolerance {
     value: Complex,
     /// Contribution to `lambda` of means that differ from the nominal values.
     shift: f64,
-    /// For a general mode, the spreads of its quantities in the order of [`Quantity::ALL`]. Those of an undamped mode
+    /// For a general mode, the spreads of its first four quantities in the order of [`Quantity::ALL`]. Those of an undamped mode
     /// are that of `lambda`, scaled: its eigenvalue is a root.
     general: Option<[Option<Spread>; 4]>,
 }
@@ -78,6 +80,9 @@ impl ModeTolerance {
     /// growth.
     #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Spread> {
+        if quantity == Quantity::LogDecrement {
+            return self.log_decrement();
+        }
         if let Some(all) = &self.general {
             return all[quantity as usize].clone();
         }
@@ -95,6 +100,17 @@ impl ModeTolerance {
             Quantity::Growth => Some(self.lambda.scaled(-rate, self.value.re - rate * self.shift)),
             _ => None,
         }
+    }
+
+    /// That of the damping ratio, of which it is a function.
+    fn log_decrement(&self) -> Option<Spread> {
+        let (ratio, s) = (self.damping_ratio()?, self.value);
+        let oscillates = s.im > 0.0;
+        oscillates.then(|| {
+            let rate = TAU * (s.norm() / s.im).powi(3);
+            let moved = ratio.mean - Quantity::DampingRatio.value(s);
+            ratio.scaled(rate, Quantity::LogDecrement.value(s) + rate * moved)
+        })
     }
 
     /// The spread of the frequency `Im s`, rad/s; see [`Self::of`].
@@ -226,7 +242,8 @@ fn general(
         None => lambda.set_without_derivatives(mode.lambda, f64::INFINITY, slopes.len()),
         Some(_) => *lambda = Spread::new(mode.lambda, slopes.clone(), tolerances),
     }
-    let all = Quantity::ALL.map(|quantity| {
+    let [all @ .., _] = Quantity::ALL;
+    let all = all.map(|quantity| {
         let slopes = mode_sensitivity.of(quantity)?.by_design;
         Some(Spread::new(quantity.of(mode)?, slopes, tolerances))
     });

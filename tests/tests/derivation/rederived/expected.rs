@@ -24,6 +24,7 @@ impl Expected {
                 (Quantity::NaturalFrequency, mode.magnitude.clone()),
                 (Quantity::DampingRatio, mode.damping_ratio.clone()),
                 (Quantity::Growth, mode.s.re.clone()),
+                (Quantity::LogDecrement, mode.log_decrement.clone()),
             ],
             s: Some(pair(&mode.s)),
             lambda: None,

@@ -1,6 +1,10 @@
 //! The product's derivatives of every mode of every machine, in both families: first and second derivatives of the
 //! eigenvalue and of derived quantities, first derivatives of both shapes.
 
+use core::f64::consts::TAU;
+
+use core::f64::consts::TAU;
+
 use eigentol::equilibrium::Equilibrium;
 use eigentol::error::NoDerivative;
 use eigentol::kernels::CurvatureKernels;
@@ -139,7 +143,11 @@ impl Product {
                 assert!(!oscillates, "{what} has no derivative");
                 continue;
             };
-            let size = if *quantity == Quantity::DampingRatio { 1.0 } else { size };
+            let size = match quantity {
+                Quantity::DampingRatio => 1.0,
+                Quantity::LogDecrement => TAU * (size / modes.modes[r].s.im).powi(2),
+                _ => size,
+            };
             let found = [&slopes.by_design[..], &slopes.by_input].concat();
             self.first(&found, number, &b, size, &what);
             let found = ordered(&curvature.of(*quantity).expect("as the first"));

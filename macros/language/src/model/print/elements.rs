@@ -31,7 +31,7 @@ impl Mechanism {
         let shafts = self.shafts.iter().map(|shaft| Element {
             name: shaft.name.to_string(),
             kind: "shaft".to_owned(),
-            law: format!("of {} sections with {} stations", shaft.masses.len(), shaft.stations.len()),
+            law: format!("of {} sections with {} stations", shaft.weights.len(), shaft.stations.len()),
         });
         let superelements = self.superelements.iter().map(|own| Element {
             name: own.name.to_string(),

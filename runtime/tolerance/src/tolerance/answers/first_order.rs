@@ -99,7 +99,7 @@ impl FirstOrder {
         }
         table.whole("mode", &|row| Some(row.number)).shown();
         let general = self.family == Family::General;
-        for quantity in [Quantity::Frequency, Quantity::NaturalFrequency, Quantity::DampingRatio, Quantity::Growth] {
+        for quantity in Quantity::ALL {
             self.spread_columns(&mut table, quantity, general);
         }
         table.words("motion", &|row| Some(row.mode.behaviour.word().to_owned()));

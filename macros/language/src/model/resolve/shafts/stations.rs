@@ -78,12 +78,13 @@ impl Resolver<'_> {
             for ends in stations.windows(2) {
                 spans.extend(self.spans(name, declared, [&ends[0], &ends[1]], gravity, forces));
             }
-            let mass = |section: &Section| multiply(section.mass.clone(), section.length.clone());
+            let weight =
+                |section: &Section| [section.length.clone(), multiply(section.mass.clone(), section.length.clone())];
             shafts.push(Shaft {
                 name: name.clone(),
                 axes: declared.axes.clone(),
                 speed: declared.speed.clone(),
-                masses: declared.between(0, declared.last()).map(mass).collect(),
+                weights: declared.between(0, declared.last()).map(weight).collect(),
                 outline: declared.outline(&stations, |length| self.nominal_of(length)),
                 stations,
                 spans,
