@@ -24,7 +24,7 @@ Numbers: TypeAlias = ArrayLike | Mapping[str, Value]
 Ranges: TypeAlias = Mapping[str, tuple[Value, Value]]
 Counts: TypeAlias = dict[str, int]
 Table: TypeAlias = dict[str, Any]
-Quantity: TypeAlias = Literal["frequency", "natural_frequency", "damping_ratio", "growth"]
+Quantity: TypeAlias = Literal["frequency", "natural_frequency", "damping_ratio", "growth", "log_decrement"]
 QuantityOrLambda: TypeAlias = Quantity | Literal["lambda"]
 Measure: TypeAlias = Literal["displacement", "velocity", "acceleration"]
 Family: TypeAlias = Literal["undamped", "general"]
@@ -907,8 +907,8 @@ class Sensitivities(_Result):
     def family(self) -> Family:
         """"undamped" or "general"."""
     def of(self, name: Quantity) -> tuple[Real, Real]:
-        """Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s),
-        by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
+        """Derivatives of a quantity, "frequency" (rad/s), "natural_frequency" (rad/s), "damping_ratio", "log_decrement" or
+        "growth" (1/s), by inputs, shape (m, inputs), and by design variables, shape (m, design), per SI unit; NaN for a mode that has
         none.
         """
 

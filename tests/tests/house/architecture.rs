@@ -30,12 +30,12 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     (
         "runtime/solve",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-shafts", "eigentol-statistics"],
-        377,
+        378,
     ),
     (
         "runtime/tolerance",
         &["eigentol-contract", "eigentol-numerics", "eigentol-results", "eigentol-solve", "eigentol-statistics"],
-        161,
+        162,
     ),
     (
         "runtime/analysis",
@@ -78,7 +78,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
     ),
     ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 71),
     ("macros/symbolic", &[], 69),
-    ("macros/language", &["eigentol-symbolic"], 506),
+    ("macros/language", &["eigentol-symbolic"], 507),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 424),
     ("macros", &["eigentol-compiler"], 1),
     ("macros/build", &["eigentol-compiler"], 22),

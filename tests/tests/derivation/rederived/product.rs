@@ -3,8 +3,6 @@
 
 use core::f64::consts::TAU;
 
-use core::f64::consts::TAU;
-
 use eigentol::equilibrium::Equilibrium;
 use eigentol::error::NoDerivative;
 use eigentol::kernels::CurvatureKernels;
