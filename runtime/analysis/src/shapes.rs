@@ -103,6 +103,9 @@ impl<'a> Shapes<'a> {
         if clusters(modes, CLUSTER_GAP)[position] {
             return Err(clustered);
         }
+        if mode.place() != mode.s {
+            return Err(Error::NextToPole { mode: position });
+        }
         let family = modes.family;
         let linear = &at.linear;
         let shafts = ShaftsAlong::of(mechanism, at, mode.s)?;
@@ -119,13 +122,14 @@ impl<'a> Shapes<'a> {
                 Side::new(linear, pencil, (&shape, slope), scale, normalised).map(|side| Sides::Undamped(side.into()))
             }
             Family::General => {
+                let s = mode.s;
                 let side = |linear: &Linear, shape: &[Complex], leading: usize, is_left: bool| {
                     let pencil = |i: usize, j: usize| {
                         let (m, c) = (linear.mass[i][j], linear.damping[i][j]);
                         let of_shafts = shafts.as_ref().map_or(Complex::ZERO, |own| own.entry([i, j], is_left));
-                        mode.s * (mode.s * m + c) + linear.stiffness[i][j] + of_shafts
+                        s * (s * m + c) + linear.stiffness[i][j] + of_shafts
                     };
-                    let mut slope = pencil_slope_times(linear, mode.s, shape);
+                    let mut slope = pencil_slope_times(linear, s, shape);
                     if let Some(own) = &shafts {
                         own.add_slope_times(Complex::ONE, shape, is_left, &mut slope);
                     }

@@ -166,6 +166,7 @@ fn raised(py: Python<'_>, error: Error, message: String) -> PyErr {
         | Error::ClosesHereOnly { .. }
         | Error::NotOscillating { .. }
         | Error::ClusteredMode { .. }
+        | Error::NextToPole { .. }
         | Error::Defective { .. }
         | Error::NotSmooth { .. }
         | Error::NoSensitivity { .. } => Kind::NoDerivative,

@@ -84,35 +84,73 @@ impl Assembly {
         &self.spans
     }
 
-    /// The sum of the stiffnesses of the elements of spans that meet at stations over their mass, the greatest of all, 1/s^2: so
-    /// large are the terms, beside the square of an eigenvalue, that cancel between the ends of elements. A short element is stiff,
-    /// and what it leaves by rounding moves the mass of all that it is joined to.
+    pub(crate) fn matrices(&self) -> [&Matrix; 3] {
+        [&self.mass, &self.damping, &self.stiffness]
+    }
+
+    /// Whether anything can oscillate: only two of inertia, damping and stiffness do.
+    pub(crate) fn moves(&self) -> bool {
+        let acts = |matrix: &Matrix| matrix.as_flattened().iter().any(|entry| *entry != 0.0);
+        !self.spans.is_empty() || self.matrices().into_iter().filter(|own| acts(own)).count() > 1
+    }
+
+    /// These unknowns alone, which nothing joins to others.
+    pub(crate) fn restricted(&self, unknowns: &[usize]) -> Self {
+        let count = unknowns.len();
+        let [mass, damping, stiffness] =
+            self.matrices().map(|of| Matrix::from_fn(count, count, |i, j| of[unknowns[i]][unknowns[j]]));
+        let own = |span: &Span| span.unknowns().all(|unknown| unknowns.contains(&unknown));
+        let kept: Vec<usize> = (0..self.spans.len()).filter(|&k| own(&self.spans[k])).collect();
+        let moved = |&k: &usize| {
+            let mut span = self.spans[k].clone();
+            for (unknown, _) in span.ends.iter_mut().flatten().flatten() {
+                *unknown = unknowns.iter().position(|own| own == unknown).unwrap_or_default();
+            }
+            span
+        };
+        Self {
+            spans: kept.iter().map(moved).collect(),
+            kinds: kept.iter().map(|&k| self.kinds[k].clone()).collect(),
+            coefficients: kept.iter().map(|&k| self.coefficients[k].clone()).collect(),
+            mass,
+            damping,
+            stiffness,
+            degree: self.degree,
+        }
+    }
+
+    /// The sum of the stiffnesses of the elements of spans that meet at stations over their mass and that of the stations, the
+    /// greatest of all, 1/s^2: so large are the terms, beside the square of an eigenvalue, that cancel between the ends of
+    /// elements. A short element is stiff, and what it leaves by rounding moves the mass of all that it is joined to.
     #[must_use]
     pub fn terms(&self) -> f64 {
-        let mut joined: Vec<(Line, Vec<usize>, [f64; 2])> = Vec::new();
-        for span in &self.spans {
-            let each = (0..span.sections.len()).map(|k| {
-                let (own, pieces) = (span.element(k), span.sections[k].1 as f64);
-                let stiffness = match span.line {
-                    Line::Timoshenko => own.shear / own.length,
-                    Line::Slender => 12.0 * own.stiffness / own.length.powi(3),
-                    Line::Bar => own.stiffness / own.length,
-                };
-                [pieces * stiffness, pieces * own.mass * own.length]
-            });
-            let mut sums = each.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-            let mut unknowns: Vec<usize> = span.ends.iter().flatten().flatten().map(|(unknown, _)| *unknown).collect();
-            joined.retain(|(line, own, [stiffness, mass])| {
-                let meets = *line == span.line && own.iter().any(|unknown| unknowns.contains(unknown));
-                if meets {
-                    unknowns.extend(own);
-                    sums = [sums[0] + stiffness, sums[1] + mass];
-                }
-                !meets
-            });
-            joined.push((span.line, unknowns, sums));
+        if self.spans.is_empty() {
+            return self.rates().fold(0.0, f64::max);
         }
-        joined.iter().map(|(_, _, [stiffness, mass])| stiffness / mass).fold(0.0, f64::max)
+        let mut joined: Vec<Vec<&Span>> = Vec::new();
+        for span in &self.spans {
+            let meets = |group: &Vec<&Span>| group.iter().any(|other| span.meets(other));
+            let (own, others): (Vec<_>, Vec<_>) = joined.into_iter().partition(meets);
+            joined = others;
+            joined.push(own.into_iter().flatten().chain([span]).collect());
+        }
+        let of_group = |group: &Vec<&Span>| {
+            let mut stations: Vec<usize> = group.iter().flat_map(|span| span.deflections()).collect();
+            stations.sort_unstable();
+            stations.dedup();
+            let heavy: f64 = stations.into_iter().map(|k| f64::max(self.mass[k][k], 0.0)).sum();
+            let mass: f64 = group.iter().map(|span| span.mass()).sum();
+            group.iter().map(|span| span.stiffness()).sum::<f64>() / (mass + heavy)
+        };
+        joined.iter().map(of_group).fold(0.0, f64::max)
+    }
+
+    /// Stiffness over mass of each unknown of the stations, and what damping adds, 1/s^2.
+    pub(crate) fn rates(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.stations()).filter(|&k| self.mass[k][k] > 0.0).map(|k| {
+            let damping = self.damping[k].iter().fold(0.0, |most, entry| f64::max(most, entry.abs()));
+            (self.stiffness[k][k].abs() + damping * damping / self.mass[k][k]) / self.mass[k][k]
+        })
     }
 
     pub(crate) fn classes_of(&self, line: Line) -> &'static [Class; 2] {
@@ -146,6 +184,11 @@ impl Assembly {
         let matrix = all.map(|((k, c), m)| s * (s * *m + *c) + *k).collect();
         let slope = c.iter().zip(m).map(|(c, m)| s * (2.0 * m) + *c).collect();
         [matrix, slope].map(|entries| Matrix::from_rows(self.stations(), entries))
+    }
+
+    /// What is at one station of this matrix, at its own unknown.
+    pub(crate) fn of_station(&self, k: usize, s: Complex) -> Complex {
+        s * (s * self.mass[k][k] + self.damping[k][k]) + self.stiffness[k][k]
     }
 
     /// Coefficients of the different sections of a span in a direction, each with one of these sections.

@@ -24,6 +24,8 @@ const SHIFT: f64 = 0.1;
 /// An orthonormal basis with what the shifted and inverted pencil is in it, and what it leaves of the last direction.
 struct Space {
     shift: f64,
+    /// By which rates are divided, 1/s: both halves of a vector weigh alike.
+    typical: f64,
     /// One more than there are columns.
     basis: Vec<Vec<f64>>,
     /// Of the Hessenberg matrix, down to what is left of the next direction.
@@ -38,10 +40,6 @@ pub(crate) struct Ritz {
 }
 
 impl Space {
-    fn typical(&self) -> f64 {
-        self.shift / SHIFT
-    }
-
     /// Whether nothing leads out of it.
     fn is_whole(&self) -> bool {
         let of_column = |column: &Vec<f64>| column.last().is_some_and(|rest| *rest == 0.0);
@@ -53,7 +51,7 @@ impl Space {
         let mut all = Vec::new();
         x.reals_into(1.0, &mut all);
         all.reserve(all.len());
-        v.reals_into(1.0 / self.typical(), &mut all);
+        v.reals_into(1.0 / self.typical, &mut all);
         all
     }
 
@@ -135,7 +133,7 @@ impl Assembly {
             Complex::new((seed >> 40) as f64 / (1 << 24) as f64 - 0.5, 0.0)
         });
         let first = at.solve_real(first);
-        let mut space = Space { shift, basis: Vec::new(), columns: Vec::new() };
+        let mut space = Space { shift, typical: self.typical_frequency(), basis: Vec::new(), columns: Vec::new() };
         let mut start = space.flat(&first, &first);
         normalise(&mut start);
         space.basis.push(start);
@@ -152,7 +150,7 @@ impl Assembly {
                 return;
             }
             x.set_reals(&space.basis[k][..half], 1.0);
-            v.set_reals(&space.basis[k][half..], space.typical());
+            v.set_reals(&space.basis[k][half..], space.typical);
             let mut loads = self.momentum(&x, &v, shift);
             loads.scale(Complex::new(-1.0, 0.0));
             let w = at.solve_real(loads);
@@ -167,16 +165,18 @@ impl Assembly {
         }
     }
 
-    /// That of the longest span between hinges, 1/s.
+    /// That of the longest span between hinges, 1/s; without spans that of the slowest station.
     fn typical_frequency(&self) -> f64 {
         let of_span = |span: &crate::Span| {
-            let length: f64 = span.sections.iter().map(|(own, _)| own.length).sum();
-            let wave = core::f64::consts::PI / length;
+            let wave = core::f64::consts::PI / span.length();
             let power = if span.line == Line::Bar { 2 } else { 4 };
             let own = span.sections.iter().map(|(own, _)| own.stiffness / own.mass).sum::<f64>();
             (own / span.sections.len() as f64 * wave.powi(power)).sqrt()
         };
-        let lowest = self.spans().iter().map(of_span).fold(f64::INFINITY, f64::min);
+        let mut lowest = self.spans().iter().map(of_span).fold(f64::INFINITY, f64::min);
+        if self.spans().is_empty() {
+            lowest = self.rates().filter(|rate| *rate > 0.0).fold(lowest, f64::min).sqrt();
+        }
         if lowest.is_finite() { lowest } else { 1.0 }
     }
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::gradients::{Form, SpanForm};
 use crate::krylov::{KNOWN, Ritz, SLOW};
 use crate::motion::Side;
-use crate::pencil::Pencil;
+use crate::pencil::{Pencil, times};
 
 /// A mode: `T(s) right = 0` and `left^T T(s) = 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,17 +27,6 @@ pub struct Mode {
 
 /// A mode, and `T` with its derivative at its `s`.
 pub type Found = (Mode, Pencil);
-
-/// Which modes are sought besides those that continue given ones.
-#[derive(Clone, Copy, Debug)]
-pub enum Others<'a> {
-    /// So many of the lowest, if one of those given is no more.
-    WhereOneEnds(usize),
-    /// So many of the lowest.
-    Lowest(usize),
-    /// Those that continue these.
-    Continuing(&'a [Mode]),
-}
 
 /// Steps of inverse iteration before them.
 const TURNS: usize = 4;
@@ -80,12 +69,8 @@ const EQUAL: usize = 4;
 const DIVERGENT: usize = 12;
 
 impl Assembly {
-    /// Up to `count` modes of lowest `|s|` that oscillate and in which stations move, by frequency. The search can miss one:
-    /// [`Self::count_within`] tells.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`].
-    pub fn modes(&self, count: usize) -> Result<Vec<Found>, Error> {
+    /// Up to `count` modes of lowest `|s|`, by frequency, where nothing is apart from the rest.
+    pub(crate) fn lowest(&self, count: usize) -> Result<Vec<Found>, Error> {
         // Where one of them has been lost, a larger space knows it better.
         for more in [2, 8] {
             let (mut modes, lost) = self.of_krylov((count + more, count), |s| self.oscillates(s))?;
@@ -100,30 +85,11 @@ impl Assembly {
         Err(Error::NotConverged)
     }
 
-    /// The modes that continue those of a neighbouring speed or design, and `others` behind them.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`].
-    pub fn continued(&self, from: &[Mode], others: Others<'_>) -> Result<Vec<Found>, Error> {
-        let mut found = self.following(from);
-        let more = match others {
-            Others::WhereOneEnds(_) if found.len() == from.len() => return Ok(found),
-            Others::WhereOneEnds(count) | Others::Lowest(count) => self.modes(count)?,
-            Others::Continuing(beside) => self.following(beside),
-        };
-        for own in more {
-            if self.is_new(&own.0, &found) {
-                found.push(own);
-            }
-        }
-        Ok(found)
-    }
-
     /// The different oscillations that continue these.
-    fn following(&self, from: &[Mode]) -> Vec<Found> {
+    pub(crate) fn following(&self, from: &[Mode]) -> Vec<Found> {
         let mut found: Vec<Found> = Vec::new();
         for own in self.refined(from).into_iter().flatten() {
-            if self.oscillates(own.0.s) && self.is_new(&own.0, &found) {
+            if self.oscillates(own.0.s) && self.is_new(&own.0, found.iter().map(|(other, _)| other)) {
                 found.push(own);
             }
         }
@@ -137,7 +103,7 @@ impl Assembly {
     }
 
     /// Whether a mode is none of these, nor a combination of such as have its eigenvalue: of equal ones any combinations are modes.
-    fn is_new(&self, mode: &Mode, among: &[Found]) -> bool {
+    pub(crate) fn is_new<'a>(&self, mode: &Mode, among: impl IntoIterator<Item = &'a Mode>) -> bool {
         let mut known: Vec<Vector<Complex>> = Vec::new();
         let rest = |x: &Vector<Complex>, known: &[Vector<Complex>]| {
             let mut rest = x.clone();
@@ -149,7 +115,7 @@ impl Assembly {
             let size = normalised(&mut rest).recip();
             (size > NEW).then_some(rest)
         };
-        for (other, _) in among.iter().filter(|(other, _)| self.are_equal(mode, other)) {
+        for other in among.into_iter().filter(|other| self.are_equal(mode, other)) {
             known.extend(rest(&other.right, &known));
         }
         rest(&mode.right, &known).is_some()
@@ -159,25 +125,18 @@ impl Assembly {
         s.im > self.rigid() && !self.gathers(s)
     }
 
-    /// Whether these eigenvalues are all that the search would find below the greatest of them, as far as a Krylov space tells.
-    #[must_use]
-    pub fn has_all(&self, known: &[Complex]) -> bool {
-        let found = self.krylov((known.len() + 2, known.len()), &|s| self.oscillates(s));
-        let Ok(found) = found else { return false };
-        let greatest = known.iter().map(|s| s.norm()).fold(0.0, f64::max);
+    /// Whether these are all below this size, as far as a Krylov space tells that knows so many.
+    pub(crate) fn has(&self, known: &[Mode], sure: usize, greatest: f64) -> bool {
+        let Ok(found) = self.krylov((sure + 2, sure), &|s| self.oscillates(s)) else { return false };
         let is_known = |own: &Ritz| {
             let reach = (FAR * own.rest).max(SAME) * own.s.norm();
-            own.rest < KNOWN && known.iter().any(|s| (s - own.s).norm() < reach)
+            own.rest < KNOWN && known.iter().any(|mode| (mode.s - own.s).norm() < reach)
         };
         found.iter().filter(|own| own.s.norm() < greatest * (1.0 - NEAR)).all(is_known)
     }
 
-    /// The number of motions that grow without oscillating, as on springs that push away, at rates up to those of the lowest
-    /// frequencies.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`].
-    pub fn divergent(&self) -> Result<usize, Error> {
+    /// The number of motions that grow without oscillating in what is not apart.
+    pub(crate) fn diverging(&self) -> Result<usize, Error> {
         let rigid = self.rigid();
         Ok(self.of_krylov((DIVERGENT, DIVERGENT), |s| s.im.abs() <= rigid && s.re > rigid)?.0.len())
     }
@@ -186,10 +145,11 @@ impl Assembly {
     fn of_krylov(&self, count: (usize, usize), wanted: impl Fn(Complex) -> bool) -> Result<(Vec<Found>, f64), Error> {
         let found = self.krylov(count, &wanted)?;
         let near: Vec<Complex> = found.iter().map(|own| own.s).collect();
-        let starts = found.iter().zip(self.pencils(&near)).map(|(own, pencil)| {
+        let starts = found.iter().zip(self.regular(&near)).map(|(own, pencil)| {
             let stations = own.stations.clone()?;
-            let (factors, pencil, _) = self.factored_beside(own.s, pencil)?;
-            let start = turned(&pencil, &factors, own.s, stations);
+            let next_to_pole = pencil.s != own.s;
+            let (factors, pencil) = self.factored_beside(pencil)?;
+            let start = turned(&pencil, &factors, (own.s, next_to_pole), stations);
             let next = self.step(start.clone(), pencil).filter(|(_, step, _)| *step < CONVERGED);
             Some(next.map_or(start, |(mode, ..)| mode))
         });
@@ -210,7 +170,8 @@ impl Assembly {
                 continue;
             };
             // Both of two equal ones are found with the first.
-            let is_known = modes.iter().any(|(other, _)| other.is_near(&mode)) || !self.is_new(&mode, &modes);
+            let is_known = modes.iter().any(|(other, _)| other.is_near(&mode))
+                || !self.is_new(&mode, modes.iter().map(|(other, _)| other));
             if wanted(mode.s) && !is_known {
                 modes.push((mode, pencil));
             }
@@ -267,31 +228,28 @@ impl Assembly {
     /// without the known modes, where that is anything.
     fn others(&self, modes: &[Found]) -> Vec<Found> {
         let near = |a: &Mode, b: &Mode| (a.s - b.s).norm() < APART / ALONE * a.s.norm();
+        let is_first = |k: &usize| !modes[..*k].iter().any(|(other, _)| near(other, &modes[*k].0));
+        let apart: Vec<&Mode> = (0..modes.len()).filter(is_first).map(|k| &modes[k].0).collect();
+        let beside: Vec<Complex> = apart.iter().map(|mode| mode.s * (1.0 + APART)).collect();
         let mut starts = Vec::new();
-        for (k, (mode, pencil)) in modes.iter().enumerate() {
-            if modes[..k].iter().any(|(other, _)| near(other, mode)) {
-                continue;
-            }
-            let aside = mode.s * APART;
-            let mut matrix = pencil.matrix.clone();
-            add_scaled(&mut matrix, aside, &pencil.slope);
-            let Some(factors) = Lu::of(matrix) else { continue };
+        for (mode, Pencil { s, matrix, .. }) in apart.into_iter().zip(self.pencils(&beside)) {
+            let Some(factors) = Lu::of(matrix.clone()) else { continue };
             let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0, 0.3 * (k % 3) as f64));
             let mut right = factors.solve(&ones);
             let mut left = factors.solve_transposed(&ones);
             normalised(&mut right);
             normalised(&mut left);
             for (known, _) in modes.iter().filter(|(other, _)| near(mode, other)) {
-                let moved = times(&pencil.slope, &known.right);
+                let moved = times(&matrix, &known.right);
                 let below = dot_complex(&known.left, &moved);
-                let share = dot_complex(&known.left, &times(&pencil.slope, &right)) / below;
+                let share = dot_complex(&known.left, &times(&matrix, &right)) / below;
                 right.iter_mut().zip(&known.right).for_each(|(x, known)| *x -= share * known);
                 let share = dot_complex(&left, &moved) / below;
                 left.iter_mut().zip(&known.left).for_each(|(y, known)| *y -= share * known);
             }
             // What is left where no other is near is smaller by the distance from the known one as a part of that to the next.
             if normalised(&mut right) < 1.0 / ALONE && normalised(&mut left) < 1.0 / ALONE {
-                starts.push(Mode { s: mode.s + aside, right, left });
+                starts.push(Mode { s, right, left });
             }
         }
         let once = self.refined(&starts).into_iter().zip(&starts).filter_map(|(found, start)| {
@@ -303,7 +261,7 @@ impl Assembly {
         let once: Vec<Mode> = once.collect();
         let mut all = modes.to_vec();
         for found in self.refined(&once).into_iter().flatten() {
-            if self.is_new(&found.0, &all) {
+            if self.is_new(&found.0, all.iter().map(|(other, _)| other)) {
                 all.push(found);
             }
         }
@@ -313,9 +271,10 @@ impl Assembly {
     /// Derivatives of the eigenvalue of a mode by the numbers of each section of each span and by the speed of each span.
     #[must_use]
     pub fn slopes(&self, mode: &Mode) -> Vec<SpanForm> {
-        let Mode { s, right, left } = mode;
-        let mut all = self.gradients(&[Form { left, s: *s, right }]).swap_remove(0);
-        let by_s = all.iter().map(|own| own.rate).sum::<Complex>() + self.slope_of_stations(left, *s, right);
+        let Mode { right, left, .. } = mode;
+        let s = self.regular(&[mode.s])[0].s;
+        let mut all = self.gradients(&[Form { left, s, right }]).swap_remove(0);
+        let by_s = all.iter().map(|own| own.rate).sum::<Complex>() + self.slope_of_stations(left, s, right);
         for own in &mut all {
             own.rate /= -by_s;
             own.speed /= -by_s;
@@ -339,7 +298,7 @@ impl Assembly {
             }
             let s: Vec<Complex> = running.iter().map(|(_, mode, _)| mode.s).collect();
             let mut next = Vec::with_capacity(running.len());
-            for ((place, mode, last), pencil) in running.into_iter().zip(self.pencils(&s)) {
+            for ((place, mode, last), pencil) in running.into_iter().zip(self.regular(&s)) {
                 let Some((mode, step, pencil)) = self.step(mode, pencil) else { continue };
                 // What remains is the cube of the last step, or rounding where steps no longer shrink.
                 let stays = step > 0.1 * last && step.max(last) < jitter(mode.s, terms);
@@ -373,7 +332,7 @@ impl Assembly {
             return;
         }
         let mean = 0.5 * (a.s + b.s);
-        let Some(Pencil { matrix, slope }) = self.pencils(&[mean]).pop() else { return };
+        let Some(Pencil { s, matrix, slope }) = self.regular(&[mean]).pop() else { return };
         let form =
             |matrix: &Matrix<Complex>, left: &Mode, right: &Mode| dot_complex(&left.left, &times(matrix, &right.right));
         let all = |m: &Matrix<Complex>| [[form(m, a, a), form(m, a, b)], [form(m, b, a), form(m, b, b)]];
@@ -399,11 +358,11 @@ impl Assembly {
                 normalised(&mut sum);
                 sum
             };
-            Mode { s: mean + change, right: sum(right, |mode| &mode.right), left: sum(left, |mode| &mode.left) }
+            Mode { s: s + change, right: sum(right, |mode| &mode.right), left: sum(left, |mode| &mode.left) }
         };
         let both = [combined(half + root), combined(half - root)];
         let exact = both.map(|mode| {
-            let pencil = self.pencils(&[mode.s]).pop()?;
+            let pencil = self.regular(&[mode.s]).pop()?;
             let (mode, step, pencil) = self.step(mode, pencil)?;
             (step < CLOSE).then_some((mode, pencil))
         });
@@ -446,7 +405,7 @@ impl Assembly {
                 let (mut right, mut left) = (right.stations, left.stations);
                 normalised(&mut right);
                 normalised(&mut left);
-                return Some((Mode { s, right, left }, self.pencils(&[s]).pop()?));
+                return Some((Mode { s, right, left }, self.regular(&[s]).pop()?));
             }
         }
         None
@@ -457,34 +416,36 @@ impl Assembly {
         BESIDE.iter().find_map(|part| self.at(s * (1.0 + part)))
     }
 
-    /// The same of the stations alone, from the pencil at `s`: factors, the pencil that they are of, and how far it is beside `s`.
-    fn factored_beside(&self, s: Complex, pencil: Pencil) -> Option<(Lu<Complex>, Pencil, Complex)> {
+    /// The same of the stations alone, and the pencil that the factors are of.
+    fn factored_beside(&self, pencil: Pencil) -> Option<(Lu<Complex>, Pencil)> {
         if let Some(factors) = factored(&pencil) {
-            return Some((factors, pencil, Complex::ZERO));
+            return Some((factors, pencil));
         }
         BESIDE[1..].iter().find_map(|part| {
-            let beside = self.pencils(&[s * (1.0 + part)]).pop()?;
-            Some((factored(&beside)?, beside, s * *part))
+            let beside = self.pencils(&[pencil.s * (1.0 + part)]).pop()?;
+            Some((factored(&beside)?, beside))
         })
     }
 
-    /// A two-sided Newton step, its size relative to `s`, and the pencil behind it, as far as the step is small.
+    /// A two-sided Newton step from a pencil at `s` or beside it, its size relative to `s`, and the pencil behind it, as far as
+    /// the step is small; one beside stays there.
     fn step(&self, mode: Mode, pencil: Pencil) -> Option<(Mode, f64, Pencil)> {
-        let Mode { mut s, right, left } = mode;
-        let (factors, mut pencil, aside) = self.factored_beside(s, pencil)?;
-        // T(s) right = on, so that on is what is left of the equations.
-        let on = times(&pencil.slope, &right);
+        let Mode { s: before, right, left } = mode;
+        let next_to_pole = pencil.s != before;
+        let (factors, mut pencil) = self.factored_beside(pencil)?;
+        let [on, against] = pencil.loads(next_to_pole, &right, &left);
         let mut right = factors.solve(&on);
         let size = normalised(&mut right);
-        let mut left = factors.solve_transposed(&times_transposed(&pencil.slope, &left));
+        let mut left = factors.solve_transposed(&against);
         normalised(&mut left);
         let rest = dot_complex(&left, &on) * size;
         let change = rest / dot_complex(&left, &times(&pencil.slope, &right));
-        // Where rounding is all that is left of the determinant, `s` is as exact as it can be.
-        let change = if aside == Complex::ZERO { change } else { Complex::ZERO };
-        s -= change;
-        let step = change.norm() / s.norm();
-        add_scaled(&mut pencil.matrix, -change - aside, &pencil.slope);
+        let s = pencil.s - change;
+        let step = (s - before).norm() / s.norm();
+        if !next_to_pole {
+            add_scaled(&mut pencil.matrix, -change, &pencil.slope);
+            pencil.s = s;
+        }
         step.is_finite().then_some((Mode { s, right, left }, step, pencil))
     }
 
@@ -493,10 +454,10 @@ impl Assembly {
     /// # Errors
     /// [`Error::NotConverged`].
     pub fn mode_at(&self, s: Complex) -> Result<Mode, Error> {
-        let pencil = self.pencils(&[s]).pop().ok_or(Error::NotConverged)?;
+        let pencil = self.regular(&[s]).pop().ok_or(Error::NotConverged)?;
         let factors = factored(&pencil).ok_or(Error::NotConverged)?;
         let ones = Vector::from_fn(self.stations(), |k| Complex::new(1.0 + 0.1 * k as f64, 0.0));
-        let start = turned(&pencil, &factors, s, factors.solve(&ones));
+        let start = turned(&pencil, &factors, (s, pencil.s != s), factors.solve(&ones));
         self.refined(&[start]).pop().flatten().map(|(mode, _)| mode).ok_or(Error::NotConverged)
     }
 
@@ -527,34 +488,28 @@ fn factored(pencil: &Pencil) -> Option<Lu<Complex>> {
 }
 
 /// Both vectors by steps that do not move `s`, which cost little, from an approximation of the motion of the stations.
-fn turned(pencil: &Pencil, factors: &Lu<Complex>, s: Complex, stations: Vector<Complex>) -> Mode {
+fn turned(
+    pencil: &Pencil,
+    factors: &Lu<Complex>,
+    (s, next_to_pole): (Complex, bool),
+    stations: Vector<Complex>,
+) -> Mode {
     let mut right = stations;
     let mut left =
         factors.solve_transposed(&Vector::from_fn(right.len(), |k| Complex::new(1.0 + 0.3 * (k % 5) as f64, 0.0)));
     for _ in 0..TURNS {
-        right = factors.solve(&times(&pencil.slope, &right));
-        left = factors.solve_transposed(&times_transposed(&pencil.slope, &left));
+        let [on, against] = pencil.loads(next_to_pole, &right, &left);
+        right = factors.solve(&on);
+        left = factors.solve_transposed(&against);
         normalised(&mut right);
         normalised(&mut left);
     }
     Mode { s, right, left }
 }
 
-fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
-    matrix.iter().map(|row: &[Complex]| dot_complex(row, x)).collect()
-}
-
 fn add_scaled(to: &mut Matrix<Complex>, factor: Complex, from: &Matrix<Complex>) {
     let entries = to.as_flattened_mut().iter_mut().zip(from.as_flattened());
     entries.for_each(|(to, from)| *to += factor * from);
-}
-
-fn times_transposed(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
-    let mut sum = Vector::zeros(matrix.column_count());
-    for (row, x) in matrix.iter().zip(x) {
-        sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += x * value);
-    }
-    sum
 }
 
 /// Scales to one; returns the factor.

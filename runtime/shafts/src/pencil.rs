@@ -1,6 +1,7 @@
 //! `T(s)` with its derivative at several `s` side by side in the vectors of the processor.
 
 use eigentol_contract::scalar::{Batch, Dual, Instructions, Lanes, Real, Task, WIDTH};
+use eigentol_numerics::algebra::{Vector, dot_complex};
 use eigentol_numerics::{Complex, Matrix};
 
 use crate::assembly::Assembly;
@@ -9,9 +10,16 @@ use crate::element::{Ends, blocks};
 use crate::number::{Number, Pair};
 use crate::section::at;
 
+/// Distance from a pole as a part of `s`, below which motions are sought beside it.
+const NEXT: f64 = 1e-5;
+/// How far.
+const BESIDE: f64 = 1e-6;
+
 /// `T` and its derivative at one `s`.
 #[derive(Clone, Debug)]
 pub struct Pencil {
+    /// 1/s.
+    pub s: Complex,
     /// `T(s)`.
     pub matrix: Matrix<Complex>,
     /// `T'(s)`.
@@ -41,11 +49,66 @@ impl Assembly {
                         span.add_blocks(*direction, &ends(entries, lane, 2), &mut slope);
                     }
                 }
-                pencils.push(Pencil { matrix, slope });
+                pencils.push(Pencil { s, matrix, slope });
             }
         }
         pencils
     }
+}
+
+impl Assembly {
+    /// The same, beside an `s` next to a pole: a span between stations that stand still vibrates there, and of a free one these may be
+    /// frequencies too. The motions of a mode, each an eigenvector of `T` itself, change as little as `s` does.
+    pub(crate) fn regular(&self, all: &[Complex]) -> Vec<Pencil> {
+        let mut pencils = self.pencils(all);
+        for pencil in &mut pencils {
+            if self.poles(pencil) > 1.0 / NEXT {
+                let both = self.pencils(&[1.0 - BESIDE, 1.0 + BESIDE].map(|part| pencil.s * part));
+                let less = both.into_iter().min_by(|a, b| self.poles(a).total_cmp(&self.poles(b)));
+                *pencil = less.unwrap_or_else(|| pencil.clone());
+            }
+        }
+        pencils
+    }
+
+    /// How much more spans resist their ends than they do far from a pole and than what is at the station, the most of all.
+    fn poles(&self, pencil: &Pencil) -> f64 {
+        let mut most: f64 = 0.0;
+        for span in self.spans() {
+            let usual = span.usual(pencil.s.norm());
+            for (k, place) in span.ends.iter().flat_map(|end| end.iter().enumerate()) {
+                let Some((unknown, _)) = *place else { continue };
+                let of_station = self.of_station(unknown, pencil.s);
+                let of_spans = pencil.matrix[unknown][unknown] - of_station;
+                let own = of_spans.norm() / (usual[k % 2] + of_station.norm());
+                most = if own.is_finite() { most.max(own) } else { f64::INFINITY };
+            }
+        }
+        most
+    }
+}
+
+impl Pencil {
+    /// What is solved with to have a motion and weights nearer to those of a mode: with as much as the change of `s` makes, and next
+    /// to a pole, whose that is there, with themselves.
+    pub(crate) fn loads(&self, next_to_pole: bool, right: &[Complex], left: &[Complex]) -> [Vector<Complex>; 2] {
+        if next_to_pole {
+            return [right.into(), left.into()];
+        }
+        [times(&self.slope, right), times_transposed(&self.slope, left)]
+    }
+}
+
+pub(crate) fn times(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
+    matrix.iter().map(|row: &[Complex]| dot_complex(row, x)).collect()
+}
+
+fn times_transposed(matrix: &Matrix<Complex>, x: &[Complex]) -> Vector<Complex> {
+    let mut sum = Vector::zeros(matrix.column_count());
+    for (row, x) in matrix.iter().zip(x) {
+        sum.iter_mut().zip(row).for_each(|(sum, value)| *sum += x * value);
+    }
+    sum
 }
 
 /// The blocks of one lane: from the given number of [`Four`] on.

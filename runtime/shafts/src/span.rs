@@ -60,6 +60,57 @@ impl Span {
         own
     }
 
+    /// The unknowns of the stations that its ends move with.
+    pub(crate) fn unknowns(&self) -> impl Iterator<Item = usize> + '_ {
+        self.ends.iter().flatten().filter_map(|place| Some((*place)?.0))
+    }
+
+    /// Those by which its ends deflect in the first plane.
+    pub(crate) fn deflections(&self) -> impl Iterator<Item = usize> + '_ {
+        self.ends.iter().filter_map(|end| Some(end[0]?.0))
+    }
+
+    /// Whether another is of the same kind and moves with the same unknowns.
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        self.line == other.line && self.unknowns().any(|own| other.unknowns().any(|unknown| unknown == own))
+    }
+
+    /// The sum of what its elements do against moving their ends apart.
+    pub(crate) fn stiffness(&self) -> f64 {
+        let of_section = |k: usize| {
+            let own = self.element(k);
+            let one = match self.line {
+                Line::Timoshenko => own.shear / own.length,
+                Line::Slender => 12.0 * own.stiffness / own.length.powi(3),
+                Line::Bar => own.stiffness / own.length,
+            };
+            self.sections[k].1 as f64 * one
+        };
+        (0..self.sections.len()).map(of_section).sum()
+    }
+
+    /// Its mass, or its moment of inertia where it is one that twists.
+    pub(crate) fn mass(&self) -> f64 {
+        self.sections.iter().map(|(own, _)| own.mass * own.length).sum()
+    }
+
+    /// Its length.
+    pub(crate) fn length(&self) -> f64 {
+        self.sections.iter().map(|(own, _)| own.length).sum()
+    }
+
+    /// The order of what it does at such a frequency against a deflection and against a slope of an end, far from a pole.
+    pub(crate) fn usual(&self, s: f64) -> [f64; 2] {
+        let length = self.length();
+        let stiffness = self.sections.iter().map(|(own, _)| own.stiffness).fold(0.0, f64::max);
+        let waves = s * (self.mass() * length / stiffness).sqrt();
+        if self.line == Line::Bar {
+            return [stiffness / length * (1.0 + waves); 2];
+        }
+        let waves = (waves * length).sqrt();
+        [stiffness / length.powi(3) * (12.0 + waves.powi(3)), stiffness / length * (4.0 + waves)]
+    }
+
     /// Whether the unknowns of a node are its deflection and its slope times half the length.
     pub(crate) fn slope_is_length(&self) -> bool {
         self.line == Line::Slender

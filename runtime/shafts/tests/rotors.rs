@@ -313,7 +313,7 @@ fn lists_of_modes_are_joined() {
         let one_of_each: Vec<Mode> = all.iter().step_by(2).cloned().collect();
         for own in [&all[..], &one_of_each, &all[..4]] {
             let joined = assembly.continued(own, Others::Continuing(&others)).unwrap();
-            let mut found: Vec<f64> = joined.iter().map(|(mode, _)| mode.s.im).collect();
+            let mut found: Vec<f64> = joined.iter().map(|((mode, _), _)| mode.s.im).collect();
             found.sort_by(f64::total_cmp);
             assert_eq!(found.len(), all.len(), "{speed}: {found:?}");
             for (found, mode) in found.iter().zip(&all) {
@@ -603,4 +603,91 @@ fn what_is_wrong_is_said() {
     assert!(Assembly::new(vec![held], none, 4).unwrap_err().to_string().contains("one unknown at least"));
     let wide = [Matrix::zeros(1, 1), Matrix::zeros(2, 2), Matrix::zeros(1, 1)];
     assert!(Assembly::new(vec![span], wide, 4).unwrap_err().to_string().contains("the same size"));
+}
+
+/// A free shaft that bends and stretches, with a spring aslant at its end that joins both: frequencies of free ends are those of
+/// held ones, next to which the spans resist without bound.
+#[test]
+fn lines_that_hardly_meet_hide_no_modes() {
+    let (length, radius) = (1.0, 0.025_f64);
+    let area = PI * radius * radius;
+    let (modulus, density) = (205e9, 7850.0);
+    let inertia = area * radius * radius / 4.0;
+    let bends = Section {
+        length,
+        stiffness: modulus * inertia,
+        shear: 0.88 * modulus / 2.6 * area,
+        mass: density * area,
+        rotary: density * inertia,
+        ..NONE
+    };
+    let stretches = Section { length, stiffness: modulus * area, mass: density * area, ..NONE };
+    let end = |k: usize| -> [Place; 4] { [2, 3, 4, 5].map(|own| Some((own + 4 * k, 1.0))) };
+    let bar = |k: usize| -> [Place; 4] { [Some((k, 1.0)), None, None, None] };
+    let spans = vec![
+        Span { line: Line::Bar, speed: 0.0, sections: vec![(stretches, 24)], ends: [bar(0), bar(1)] },
+        Span { line: Line::Timoshenko, speed: 100.0, sections: vec![(bends, 24)], ends: [end(0), end(1)] },
+    ];
+    for power in -4..9 {
+        for draw in 0..4 {
+            let k = 10_f64.powf(f64::from(power) + 0.25 * f64::from(draw));
+            let slant = [0.6, 0.64, 0.48];
+            let place = |i: usize| [Some(0), None, Some(1), None, Some(2)].get(i).copied().flatten();
+            let stiffness = Matrix::from_fn(10, 10, |i, j| match (place(i), place(j)) {
+                (Some(a), Some(b)) => k * slant[a] * slant[b],
+                _ => 0.0,
+            });
+            let zero = Matrix::zeros(10, 10);
+            let assembly = Assembly::new(spans.clone(), [zero.clone(), zero, stiffness], 4).unwrap();
+            let found = modes(&assembly, 16);
+            let (low, high) = (800.0, 17_000.0);
+            let count = assembly.count_within(Complex::new(-60.0, low), Complex::new(60.0, high)).unwrap();
+            let within: Vec<_> = found.iter().map(|mode| mode.s).filter(|s| s.im > low && s.im < high).collect();
+            assert_eq!(count, within.len(), "{k:e}: {within:?}");
+            assert!(within.iter().all(|s| s.re.abs() < 1e-6), "{k:e}: {within:?}");
+        }
+    }
+}
+
+/// Bars on which nothing acts, of several lengths side by side and in rows of equal and of unequal parts: frequencies of free ends,
+/// and their derivatives by the length, to six digits next to poles of all spans.
+#[test]
+fn free_bars() {
+    let speed = 5000.0_f64;
+    for lengths in [vec![1.0], vec![0.5, 0.5], vec![0.25, 0.75], vec![0.2, 0.3, 0.5], vec![0.31, 0.69]] {
+        for tails in [[1.0, 1.0, 1.0], [1.0, 0.93, 1.07], [1.0, 1.0 + 1e-9, 2.0]] {
+            let mut spans = Vec::new();
+            let mut unknown = 0;
+            for tail in tails {
+                for length in &lengths {
+                    let section = Section { length: tail * length, stiffness: speed * speed * 3.0, mass: 3.0, ..NONE };
+                    let elements = (24.0 * length).ceil() as usize;
+                    let end = |k: usize| -> [Place; 4] { [Some((k, 1.0)), None, None, None] };
+                    let ends = [end(unknown), end(unknown + 1)];
+                    spans.push(Span { line: Line::Bar, speed: 0.0, sections: vec![(section, elements)], ends });
+                    unknown += 1;
+                }
+                unknown += 1;
+            }
+            let zero = Matrix::zeros(unknown, unknown);
+            let assembly = Assembly::new(spans, [zero.clone(), zero.clone(), zero], 4).unwrap();
+            let found = modes(&assembly, 9);
+            let mut exact: Vec<f64> =
+                tails.iter().flat_map(|tail| (1..12).map(move |k| PI * f64::from(k) * speed / tail)).collect();
+            exact.sort_by(f64::total_cmp);
+            assert_eq!(found.len(), 9, "{lengths:?} {tails:?}");
+            for (mode, exact) in found.iter().zip(exact) {
+                let what = format!("{lengths:?} {tails:?}");
+                close(mode.s.im, exact, exact, 1e-8, &what);
+                close(mode.s.re, 0.0, exact, 1e-8, &what);
+                // Of all lengths together.
+                let slopes = assembly.slopes(mode);
+                let scaled = slopes
+                    .iter()
+                    .zip(assembly.spans())
+                    .map(|(own, span)| own.sections[0][Number::Length as usize] * span.sections[0].0.length);
+                close(scaled.sum::<Complex>().im, -exact, exact, 1e-5, &what);
+            }
+        }
+    }
 }

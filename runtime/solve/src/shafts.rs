@@ -159,7 +159,7 @@ impl Shafts {
 #[doc(hidden)]
 #[must_use]
 pub fn form<'a>(a: &'a Mode, b: &'a Mode) -> Form<'a> {
-    Form { left: a.left(), s: b.s, right: &b.shape }
+    Form { left: a.left(), s: b.place(), right: &b.shape }
 }
 
 /// Shafts with the derivatives of their numbers.

@@ -3,4 +3,5 @@
 
 mod exact;
 mod hard;
+mod parts;
 pub(crate) mod random;

@@ -76,7 +76,7 @@ const CRATES: [(&str, &[&str], usize); 23] = [
         ],
         59,
     ),
-    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 71),
+    ("runtime/shafts", &["eigentol-contract", "eigentol-numerics"], 79),
     ("macros/symbolic", &[], 69),
     ("macros/language", &["eigentol-symbolic"], 507),
     ("macros/compiler", &["eigentol-language", "eigentol-symbolic"], 424),

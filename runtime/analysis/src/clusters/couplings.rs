@@ -238,7 +238,7 @@ impl<'a> General<'a> {
     fn couplings(&self, change: &Linear, variable: usize) -> Matrix<Complex> {
         let Self { members, normalisers, shafts } = self;
         let count = members.len();
-        let moved: Vec<_> = members.iter().map(|b| pencil_times(change, b.s, &b.shape)).collect();
+        let moved: Vec<_> = members.iter().map(|b| pencil_times(change, b.place(), &b.shape)).collect();
         Matrix::from_fn(count, count, |i, j| {
             let compiled = dot_complex(members[i].left(), &moved[j]);
             let of_shafts =

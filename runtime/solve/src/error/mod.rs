@@ -305,6 +305,17 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
     },
+    /// A part of a shaft between stations that stand still vibrates at the frequency of a mode, as in a bar on which nothing acts:
+    /// how its ends resist is known beside it only.
+    #[error(
+        "a part of a shaft vibrates between stations that stand still at the frequency of mode {}: it has first derivatives \
+         only",
+        .mode + 1
+    )]
+    NextToPole {
+        /// Position of the mode, from 0.
+        mode: usize,
+    },
     /// Modes have merged into one defective eigenvalue (a single mode with its conjugate), or are so close to it that
     /// rounding hides their coupling.
     #[error(

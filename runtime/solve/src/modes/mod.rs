@@ -500,6 +500,7 @@ fn solve_general(
             residual: root.residual,
             error,
             condition: root.condition,
+            beside: 0.0,
             label: modes.len(),
         });
     }

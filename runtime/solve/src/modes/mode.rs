@@ -157,8 +157,16 @@ pub struct Mode {
     /// eigenvalues and their vectors are about to merge, infinite where they have merged.
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub condition: f64,
+    /// How far beside `s`, as a part of it, its vectors are those of the equations: next to a pole of shafts.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub(crate) beside: f64,
     /// Identifies the motion: modes with the same label along a sweep are one motion. Without a sweep, the position.
     pub label: usize,
+}
+
+#[cfg(feature = "serde")]
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 impl Mode {
@@ -203,15 +211,33 @@ impl Mode {
         Some(self.damping_ratio()? * TAU * self.s.norm() / self.frequency()?)
     }
 
-    /// A mode of a mechanism with shafts.
+    /// The `s` of the equations that its vectors fulfil: its eigenvalue, but next to a pole of shafts a little beside it.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn place(&self) -> Complex {
+        self.s * (1.0 + self.beside)
+    }
+
+    /// A mode of a mechanism with shafts, whose vectors fulfil the equations at a `place`.
     pub(crate) fn general(
-        s: Complex,
+        [s, place]: [Complex; 2],
         (shape, left): (Vector<Complex>, Vector<Complex>),
         behaviour: Behaviour,
         residual: f64,
         error: f64,
     ) -> Self {
-        Self { s, lambda: -(s * s).re, shape, left, behaviour, residual, error, condition: 1.0, label: 0 }
+        Self {
+            s,
+            lambda: -(s * s).re,
+            shape,
+            left,
+            behaviour,
+            residual,
+            error,
+            condition: 1.0,
+            beside: ((place - s) / s).re,
+            label: 0,
+        }
     }
 
     /// An empty mode, to be overwritten.
@@ -225,6 +251,7 @@ impl Mode {
             residual: 0.0,
             error: 0.0,
             condition: 1.0,
+            beside: 0.0,
             label: 0,
         }
     }

@@ -83,7 +83,7 @@ impl Followed {
 #[doc(hidden)]
 #[must_use]
 pub fn completed(state: &Equilibrium, modes: Vec<Mode>) -> Vec<Mode> {
-    let known: Vec<Complex> = modes.iter().map(|mode| mode.s).collect();
+    let known: Vec<_> = modes.iter().map(start).collect();
     match Shafts::of(state) {
         Ok(Some(shafts)) if !modes.is_empty() && !shafts.whole.has_all(&known) => {
             shafts.modes(state, &modes, Others::Lowest).unwrap_or(modes)
@@ -138,9 +138,9 @@ impl Shafts {
         let count = count(&at.description);
         let others = if starts.is_empty() { Others::Lowest(count) } else { others(count) };
         let found = self.whole.continued(&starts, others).ok()?;
-        let (mut modes, within) = (Vec::new(), self.whole.terms());
+        let mut modes = Vec::new();
         let (size, leading) = Normalisation::of(&at.description);
-        for (own, Pencil { matrix, slope }) in found {
+        for ((own, Pencil { s: place, matrix, slope }), within) in found {
             let eigentol_shafts::Mode { s, mut right, mut left } = own;
             let mass = &at.linear.mass;
             let weighs =
@@ -157,7 +157,7 @@ impl Shafts {
             let rest = |(row, size): (&[Complex], &f64)| dot_complex(row, &right).norm() / size.max(f64::MIN_POSITIVE);
             let rest = matrix.iter().zip(&sizes).map(rest).fold(0.0, f64::max);
             let behaviour = Behaviour::of_general(s, error, false);
-            modes.push(Mode::general(s, (right, left), behaviour, rest, error));
+            modes.push(Mode::general([s, place], (right, left), behaviour, rest, error));
         }
         Some(modes)
     }

@@ -149,7 +149,7 @@ impl AdjointContext<'_> {
         match matrices {
             Some(matrices) => of_general(matrices, mode, gradient),
             None => {
-                let form = BilinearForm::of(mode.left(), mode.s, &mode.shape);
+                let form = BilinearForm::of(mode.left(), mode.place(), &mode.shape);
                 form_gradient(self.mechanism, self.at, &form, room, gradient);
             }
         }
@@ -277,7 +277,7 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 /// `psi^T (2 s Mhat + Chat) phi`, with shafts `psi^T T'(s) phi`; zero where the eigenvalue has merged with another.
 pub fn normaliser(at: &Equilibrium, shafts: Option<&ShaftSlopes>, mode: &Mode) -> Complex {
     let moved = match shafts {
-        Some(own) => own.shafts.slope(mode.s).iter().map(|row| dot_complex(row, &mode.shape)).collect(),
+        Some(own) => own.shafts.slope(mode.place()).iter().map(|row| dot_complex(row, &mode.shape)).collect(),
         None => pencil_slope_times(&at.linear, mode.s, &mode.shape),
     };
     dot_complex(mode.left(), &moved)

@@ -112,7 +112,7 @@ impl<'a> Rate<'a> {
                 (stiffness - mode.lambda * form(phi, &change.mass, phi)).into()
             }
             Family::General => {
-                let change = pencil_times(change, mode.s, &mode.shape);
+                let change = pencil_times(change, mode.place(), &mode.shape);
                 -dot_complex(mode.left(), &change) / self.scale
             }
         }

@@ -140,7 +140,7 @@ fn general(
         });
         let mut of_shafts = of_shafts.iter().flatten();
         let of_cluster = |cluster: &Vec<usize>| {
-            let (count, s) = (cluster.len(), modes[cluster[0]].s);
+            let (count, s) = (cluster.len(), modes[cluster[0]].place());
             let products = |matrix: &dyn Fn(&[Complex]) -> Vector<Complex>| {
                 let images: Vec<_> = cluster.iter().map(|&j| matrix(&modes[j].shape)).collect();
                 Matrix::from_fn(count, count, |i, j| dot_complex(modes[cluster[i]].left(), &images[j]))

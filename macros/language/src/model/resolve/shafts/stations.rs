@@ -35,6 +35,12 @@ const MOTIONS: [(&str, usize, bool); 6] = [
 /// other falls with its exponential.
 const TENSE: f64 = 8.0;
 
+/// The most elements of what bends within a radius of gyration of its sections, of which a solid round shaft has four to its
+/// diameter. Shorter ones are so stiff that rounding hides slow modes; a shaft has so many in any case, as far as it is not
+/// told to have fewer.
+const FINEST: f64 = 2.0;
+const FEWEST: f64 = 4.0;
+
 /// Where a station is.
 pub(in crate::model::resolve) struct Standing<'a> {
     /// Of the body with stations.
@@ -198,8 +204,14 @@ impl Resolver<'_> {
         }
         let nominal = |own: &Section| self.nominal_of(&own.length);
         let total: f64 = declared.between(0, declared.last()).map(nominal).sum();
-        let pieces = |own: &Section| ((declared.elements as f64 * nominal(own) / total - 1e-9).ceil() as usize).max(1);
-        let elements: Vec<usize> = between().map(pieces).collect();
+        let all = declared.elements as f64;
+        let count = |most: f64, own: &Section| ((most * nominal(own) / total - 1e-9).ceil() as usize).max(1);
+        let within_gyration = |own: &Section| {
+            let gyration = (self.nominal_of(&own.rotary) / self.nominal_of(&own.mass)).sqrt();
+            count(all.min(f64::max(FEWEST, FINEST * total / gyration)), own)
+        };
+        let of_bars: Vec<usize> = between().map(|own| prime_from(count(all, own))).collect();
+        let of_bending: Vec<usize> = between().map(within_gyration).collect();
         let [first, last] = ends.map(|end| end.place);
         let stiffened = |own: &Section| {
             let [tension, bending] = [&declared.tension, &own.bending].map(|x| self.nominal_of(x));
@@ -213,19 +225,14 @@ impl Resolver<'_> {
         }
         let mut spans = Vec::new();
         for (line, motions, sections) in lines {
+            let elements = if line == Line::Bar { of_bars.clone() } else { of_bending.clone() };
             // Each number is computed once for everything that uses it.
             let sections: Vec<Numbers> =
                 sections.into_iter().map(|row| row.map(|number| self.shared_of_shaft(name, number))).collect();
             let of_end = |end: &ShaftStation| {
                 motions.iter().filter_map(|(k, factor)| Some((end.coordinates[*k]?, *factor))).collect()
             };
-            let span = Span {
-                line,
-                speed: declared.speed.clone(),
-                sections,
-                elements: elements.clone(),
-                ends: ends.map(of_end),
-            };
+            let span = Span { line, speed: declared.speed.clone(), sections, elements, ends: ends.map(of_end) };
             let along = if motions[0].0 == 5 { None } else { Some(motions[0].0) };
             let weight = match (line, along) {
                 (Line::Bar, None) => [zero(), zero()],
@@ -271,4 +278,11 @@ impl Resolver<'_> {
             }
         }
     }
+}
+
+/// The first prime number from this one on, or one: at a frequency of a uniform bar that has so many elements no part of it vibrates
+/// between two of its nodes that stand still, which could not be eliminated.
+fn prime_from(least: usize) -> usize {
+    let is_prime = |n: &usize| (2..*n).all(|k| n % k != 0);
+    (least..).find(is_prime).unwrap_or(least)
 }
