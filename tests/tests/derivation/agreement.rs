@@ -100,7 +100,17 @@ fn a_refusal_that_names_another_motion_is_wrong() {
 /// The oracle in another ground frame: correct, but rounded differently.
 #[test]
 fn rounding_is_no_disagreement() {
-    on_plans(8, |plan| {
+    agrees_in_another_frame(3);
+}
+
+#[test]
+#[ignore = "ten seconds"]
+fn rounding_is_no_disagreement_on_many_trees() {
+    agrees_in_another_frame(16);
+}
+
+fn agrees_in_another_frame(trees: u32) {
+    on_plans(trees, |plan| {
         let model = plan.model();
         let other = Oracle::new(&model).turned([1.0, 2.0, -0.4], 2.1);
         assert_agrees(&model, &other, plan.seed);

@@ -88,19 +88,29 @@ fn flat(tokens: TokenStream, pool: &mut Vec<TokenTree>) {
 
 #[test]
 fn mutated_declarations_are_refused_or_compiled_but_never_panic() {
+    mutations_are_survived(300);
+}
+
+#[test]
+#[ignore = "ten seconds"]
+fn many_mutated_declarations_are_refused_or_compiled_but_never_panic() {
+    mutations_are_survived(2000);
+}
+
+fn mutations_are_survived(rounds: usize) {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut pool = Vec::new();
     for source in FUZZED {
-        flat(source.parse().unwrap(), &mut pool);
+        flat(source.parse().expect("tokens"), &mut pool);
     }
     let mut stages = [0; 3];
-    for round in 0..1000 {
+    for round in 0..rounds {
         let source = FUZZED[round % FUZZED.len()];
-        let tokens = mutate(source.parse().unwrap(), &mut random, &pool);
+        let tokens = mutate(source.parse().expect("tokens"), &mut random, &pool);
         survive(tokens, &mut stages);
     }
     // Mutations that are all caught by the parser would test nothing beyond it.
-    assert!(stages.iter().all(|&count| count > 20), "{stages:?}");
+    assert!(stages.iter().all(|&count| 50 * count > rounds), "{stages:?}");
 }
 
 #[test]
