@@ -1,4 +1,4 @@
-//! Random mechanisms full of special cases: a tenth of ten thousand by default, all of them with `-- --ignored`. For
+//! Random mechanisms full of special cases: a twentieth of ten thousand by default, all of them with `-- --ignored`. For
 //! more: `cargo run --release --package eigentol-consistency`.
 
 use eigentol_compiler::mechanics::Limits;
@@ -57,7 +57,7 @@ fn count(summary: &Summary, case: &str) -> u64 {
 
 #[test]
 fn kernels_of_random_trees_are_consistent() {
-    require_consistent(TREES / 10);
+    require_consistent(TREES / 20);
 }
 
 #[test]
