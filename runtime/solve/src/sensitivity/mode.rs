@@ -286,6 +286,7 @@ mod tests {
             residual: 0.0,
             error: 0.0,
             condition: 1.0,
+            beside: 0.0,
             label: 0,
         }
     }

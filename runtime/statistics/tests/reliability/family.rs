@@ -126,27 +126,31 @@ impl Machine {
         sums
     }
 
+    /// Both bounds are looked for by themselves: between them there may be next to nothing.
     fn along(&self, first: f64) -> [f64; 2] {
-        let fails = |s: f64| self.value(&[first, s]) <= 0.0;
+        let response = |s: f64| self.response(&self.design(&[first, s])).0;
         let place = |k: u32| -8.0 + f64::from(k) * 0.1;
-        let mut parts = [0.0; 2];
-        let mut add = |fails: bool, from: f64, to: f64| {
-            let probability = if from > 0.0 { cdf(-from) - cdf(-to) } else { cdf(to) - cdf(from) };
-            parts[usize::from(!fails)] += probability;
-        };
-        let (mut from, mut last) = (f64::NEG_INFINITY, fails(place(0)));
-        for k in 1..=160 {
-            if fails(place(k)) != last {
-                let (mut near, mut far) = (place(k - 1), place(k));
+        let responses: Vec<f64> = (0..=160).map(|k| response(place(k))).collect();
+        let mut ends = vec![f64::NEG_INFINITY, f64::INFINITY];
+        for bound in [self.low, self.high] {
+            for k in (1..=160).filter(|k| (responses[*k - 1] > bound) != (responses[*k] > bound)) {
+                let (mut near, mut far) = (place(k as u32 - 1), place(k as u32));
                 for _ in 0..40 {
                     let middle = 0.5 * (near + far);
-                    *(if fails(middle) == last { &mut near } else { &mut far }) = middle;
+                    *(if (response(middle) > bound) == (responses[k - 1] > bound) { &mut near } else { &mut far }) =
+                        middle;
                 }
-                add(last, from, near);
-                (from, last) = (near, !last);
+                ends.push(near);
             }
         }
-        add(last, from, f64::INFINITY);
+        ends.sort_by(f64::total_cmp);
+        let mut parts = [0.0; 2];
+        for part in ends.windows(2) {
+            let (from, to) = (part[0], part[1]);
+            let probability = if from > 0.0 { cdf(-from) - cdf(-to) } else { cdf(to) - cdf(from) };
+            let middle = 0.5 * (from.clamp(-8.5, 8.5) + to.clamp(-8.5, 8.5));
+            parts[usize::from(self.value(&[first, middle]) > 0.0)] += probability;
+        }
         parts
     }
 }
