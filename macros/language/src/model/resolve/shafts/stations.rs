@@ -283,6 +283,6 @@ impl Resolver<'_> {
 /// The first prime number from this one on, or one: at a frequency of a uniform bar that has so many elements no part of it vibrates
 /// between two of its nodes that stand still, which could not be eliminated.
 fn prime_from(least: usize) -> usize {
-    let is_prime = |n: &usize| (2..*n).all(|k| n % k != 0);
+    let is_prime = |n: &usize| (2..*n).all(|k| !n.is_multiple_of(k));
     (least..).find(is_prime).unwrap_or(least)
 }
