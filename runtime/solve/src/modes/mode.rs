@@ -158,15 +158,9 @@ pub struct Mode {
     #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub condition: f64,
     /// How far beside `s`, as a part of it, its vectors are those of the equations: next to a pole of shafts.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
     pub(crate) beside: f64,
     /// Identifies the motion: modes with the same label along a sweep are one motion. Without a sweep, the position.
     pub label: usize,
-}
-
-#[cfg(feature = "serde")]
-fn is_zero(x: &f64) -> bool {
-    *x == 0.0
 }
 
 impl Mode {
