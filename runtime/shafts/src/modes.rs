@@ -59,6 +59,8 @@ const BLENDED: f64 = 1e-5;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// What is left of a unit vector without known modes, above which it is none of them.
 const NEW: f64 = 0.05;
+/// How much more than far from a pole spans resist where steps may creep.
+const CREEPS: f64 = 10.0;
 /// How far beside an eigenvalue another one near it is looked for, as a part of it.
 const APART: f64 = 1e-5;
 /// What is left of a unit vector without the known modes, below which no other is near.
@@ -261,6 +263,10 @@ impl Assembly {
         let once: Vec<Mode> = once.collect();
         let mut all = modes.to_vec();
         for found in self.refined(&once).into_iter().flatten() {
+            // Near a pole steps may creep to where nothing is.
+            let is_sure = self.poles(&found.1) < CREEPS;
+            let found = if is_sure { Some(found) } else { self.with_all_unknowns(&found.0, 2) };
+            let Some(found) = found else { continue };
             if self.is_new(&found.0, all.iter().map(|(other, _)| other)) {
                 all.push(found);
             }
@@ -288,8 +294,9 @@ impl Assembly {
     /// depend on the others, but of those that are nearly equal.
     #[must_use]
     pub fn refined(&self, starts: &[Mode]) -> Vec<Option<Found>> {
-        let mut running: Vec<(usize, Mode, f64)> =
-            starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), f64::INFINITY)).collect();
+        let far = Complex::new(f64::INFINITY, 0.0);
+        let mut running: Vec<(usize, Mode, Complex)> =
+            starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), far)).collect();
         let mut found = vec![None; starts.len()];
         let terms = self.terms();
         for _ in 0..STEPS {
@@ -299,13 +306,16 @@ impl Assembly {
             let s: Vec<Complex> = running.iter().map(|(_, mode, _)| mode.s).collect();
             let mut next = Vec::with_capacity(running.len());
             for ((place, mode, last), pencil) in running.into_iter().zip(self.regular(&s)) {
+                let before = mode.s;
                 let Some((mode, step, pencil)) = self.step(mode, pencil) else { continue };
-                // What remains is the cube of the last step, or rounding where steps no longer shrink.
-                let stays = step > 0.1 * last && step.max(last) < jitter(mode.s, terms);
+                // What remains is the cube of the last step, or rounding where steps no longer shrink, nor lead anywhere.
+                let (change, most) = (mode.s - before, step.max(last.norm() / mode.s.norm()));
+                let leads = (change + last).norm() > most * mode.s.norm();
+                let stays = step > 0.1 * last.norm() / mode.s.norm() && most < jitter(mode.s, terms) && !leads;
                 if step < CLOSE || stays {
                     found[place] = Some((mode, pencil));
                 } else {
-                    next.push((place, mode, step));
+                    next.push((place, mode, change));
                 }
             }
             running = next;
@@ -393,9 +403,9 @@ impl Assembly {
             let rest = left.product(&on);
             right = at.solve(on, Side::Right);
             let size = right.normalise();
-            let change = rest * size / left.product(&self.slope_loads(&right, at.s, Side::Right));
-            s = at.s - change;
-            let step = change.norm() / s.norm();
+            let before = s;
+            s = at.s - rest * size / left.product(&self.slope_loads(&right, at.s, Side::Right));
+            let step = (s - before).norm() / s.norm();
             let stays = step > 0.1 * last && step.max(last) < jitter(s, terms);
             last = step;
             if !step.is_finite() {
@@ -411,8 +421,9 @@ impl Assembly {
         None
     }
 
-    /// Factors at `s`, or so far beside it that rounding leaves something to solve with.
+    /// Factors at `s`, or so far beside it that rounding leaves something to solve with, and no pole is next to it.
     fn beside(&self, s: Complex) -> Option<At<'_>> {
+        let s = self.regular(&[s]).pop()?.s;
         BESIDE.iter().find_map(|part| self.at(s * (1.0 + part)))
     }
 

@@ -72,7 +72,7 @@ impl Assembly {
     }
 
     /// How much more spans resist their ends than they do far from a pole and than what is at the station, the most of all.
-    fn poles(&self, pencil: &Pencil) -> f64 {
+    pub(crate) fn poles(&self, pencil: &Pencil) -> f64 {
         let mut most: f64 = 0.0;
         for span in self.spans() {
             let usual = span.usual(pencil.s.norm());
