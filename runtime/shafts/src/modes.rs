@@ -294,9 +294,8 @@ impl Assembly {
     /// depend on the others, but of those that are nearly equal.
     #[must_use]
     pub fn refined(&self, starts: &[Mode]) -> Vec<Option<Found>> {
-        let far = Complex::new(f64::INFINITY, 0.0);
-        let mut running: Vec<(usize, Mode, Complex)> =
-            starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), far)).collect();
+        let mut running: Vec<(usize, Mode, f64)> =
+            starts.iter().enumerate().map(|(k, mode)| (k, mode.clone(), f64::INFINITY)).collect();
         let mut found = vec![None; starts.len()];
         let terms = self.terms();
         for _ in 0..STEPS {
@@ -306,16 +305,13 @@ impl Assembly {
             let s: Vec<Complex> = running.iter().map(|(_, mode, _)| mode.s).collect();
             let mut next = Vec::with_capacity(running.len());
             for ((place, mode, last), pencil) in running.into_iter().zip(self.regular(&s)) {
-                let before = mode.s;
                 let Some((mode, step, pencil)) = self.step(mode, pencil) else { continue };
-                // What remains is the cube of the last step, or rounding where steps no longer shrink, nor lead anywhere.
-                let (change, most) = (mode.s - before, step.max(last.norm() / mode.s.norm()));
-                let leads = (change + last).norm() > most * mode.s.norm();
-                let stays = step > 0.1 * last.norm() / mode.s.norm() && most < jitter(mode.s, terms) && !leads;
+                // What remains is the cube of the last step, or rounding where steps no longer shrink.
+                let stays = step > 0.1 * last && step.max(last) < jitter(mode.s, terms);
                 if step < CLOSE || stays {
                     found[place] = Some((mode, pencil));
                 } else {
-                    next.push((place, mode, change));
+                    next.push((place, mode, step));
                 }
             }
             running = next;
